@@ -1,15 +1,18 @@
-// Which share of the light that reaches each pixel from all around may have changed, because objects moved: those that hid it, shone, or
-// reflected it. The filter forgets as much (FDenoiseInputs::ChangedShare).
+// How much of the light that reaches each pixel from all around may have changed. Objects that moved hid it, shone, or reflected it: they
+// give a share. Lamps that changed give a radiance. The filter forgets as much (FDenoiseInputs::ChangedShare).
 #version 460
 #include "../Shared/MovedShareTypes.h"
 #include "../Library/GBuffer.glsl"
 #include "../Library/GroupBounds.glsl"
+#include "../Library/RadianceEvents.glsl"
 #include "../Tiles/Tile.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FMovedShareConstants Push; };
 
 const float LeastShare = 1.0e-3;
+const float LeastShining = 0.01; // times as much light as is there without what shines
+const float MostRadiance = 65504.0; // of fp16
 
 shared uint Near[SETTLED_MOST_CASTERS / 32u]; // casters that matter to the tile
 
@@ -22,7 +25,8 @@ void FindNear(FViewConstants View, uint Place)
 	{
 		FMovedCaster Caster = FMovedCasterRef(Push.Casters).Data[I];
 		float Away = max(distance(Caster.To, Bound.xyz) - distance(Caster.From, Caster.To) - Bound.w, Caster.Radius);
-		if (2.0 * Caster.Changed * Caster.Radius * Caster.Radius > LeastShare * Away * Away) { atomicOr(Near[I >> 5u], 1u << (I & 31u)); }
+		float Least = LeastShare * Away * Away / (Caster.Radius * Caster.Radius);
+		if (2.0 * Caster.Changed > Least || Caster.Emission > LeastShining * Least) { atomicOr(Near[I >> 5u], 1u << (I & 31u)); }
 	}
 }
 
@@ -48,13 +52,13 @@ void main()
 	FindNear(View, Place);
 	barrier();
 	if (!bInside) { return; }
-	float Share = 0.0;
+	vec2 Moved = vec2(0.0, Depth > 0.0 ? GetLampChange(Push.Lamps, Push.LampCount, P) : 0.0);
 	for (uint Word = 0u; Word < SETTLED_MOST_CASTERS / 32u && Depth > 0.0; ++Word)
 	{
 		for (uint Bits = Near[Word]; Bits != 0u; Bits &= Bits - 1u)
 		{
-			Share += GetMovedShare(FMovedCasterRef(Push.Casters).Data[Word * 32u + uint(findLSB(Bits))], P, Normal);
+			Moved += GetMovedShare(FMovedCasterRef(Push.Casters).Data[Word * 32u + uint(findLSB(Bits))], P, Normal);
 		}
 	}
-	imageStore(Images[Push.Output], Pixel, vec4(min(Share, 1.0)));
+	imageStore(Images[Push.Output], Pixel, vec4(min(Moved, vec2(1.0, MostRadiance)), 0.0, 0.0));
 }

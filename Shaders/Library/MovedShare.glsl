@@ -1,5 +1,5 @@
-// Which share of the light that reaches a surface from all around objects that moved may have changed: those that hid it, shone, or
-// reflected it.
+// How much of the light that reaches a surface from all around objects that moved may have changed: those that hid it, shone, or reflected
+// it.
 #ifndef LANTERN_MOVED_SHARE_GLSL
 #define LANTERN_MOVED_SHARE_GLSL
 
@@ -17,12 +17,20 @@ float FormFactor(vec3 To, float Radius, vec3 Normal)
 	return Solid * Above * max(Up * inversesqrt(DistanceSquared), 0.5 * sqrt(Solid));
 }
 
-// P: relative to the scene's origin, metres.
-float GetMovedShare(FMovedCaster Mover, vec3 P, vec3 Normal)
+// What a mover may have changed of the light of a surface: x: a share of it, y: a radiance. P: relative to the scene's origin, metres.
+vec2 GetMovedShare(FMovedCaster Mover, vec3 P, vec3 Normal)
 {
 	vec3 Way = Mover.To - Mover.From;
-	vec3 Nearest = Mover.From + Way * clamp(dot(P - Mover.From, Way) / max(dot(Way, Way), 1.0e-12), 0.0, 1.0);
-	return 2.0 * Mover.Changed * FormFactor(Nearest - P, Mover.Radius, Normal); // where it was, and where it is
+	float Length = length(Way);
+	vec3 Nearest = Mover.From + Way * clamp(dot(P - Mover.From, Way) / max(Length * Length, 1.0e-12), 0.0, 1.0);
+	float Form = FormFactor(Nearest - P, Mover.Radius, Normal);
+	// What shines takes its light along. From far away little changes.
+	float Distance = max(distance(Nearest, P), Mover.Radius);
+	float Part = Length > 0.0 ? min(2.0 * Length / Distance, 1.0) : Mover.Changed;
+	// Its light comes by other surfaces as well, whichever way this one faces: in a bright room several times as much.
+	const float Bounced = 4.0;
+	float Shone = Bounced * Part * Mover.Emission * Mover.Radius * Mover.Radius / (Distance * Distance);
+	return vec2(2.0 * Mover.Changed * Form, Shone); // where it was, and where it is
 }
 
 #endif

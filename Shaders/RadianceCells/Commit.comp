@@ -2,10 +2,9 @@
 #version 460
 #include "RadianceCellSlots.glsl"
 #include "../Library/MovedShare.glsl"
+#include "../Library/RadianceEvents.glsl"
 
 const float LeastWindow = 4.0; // updates
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FRadianceEventRef { FRadianceEvent Data[]; };
 
 // What a cell may average over, by what has changed around it.
 struct FWindow
@@ -14,17 +13,15 @@ struct FWindow
 	float Least; // updates
 };
 
-FWindow GetWindow(FRadianceGrid Grid, FRadianceCell Cell)
+// Light: what the update has brought.
+FWindow GetWindow(FRadianceGrid Grid, FRadianceCell Cell, vec3 Light)
 {
 	FWindow Window = FWindow(Grid.Window, LeastWindow);
 	vec3 P = FromRadianceSteps(Grid, Cell.Place), Normal = UnpackOct(Cell.Normal);
-	for (uint I = 0u; I < Grid.EventCount; ++I)
-	{
-		FRadianceEvent Event = FRadianceEventRef(Grid.Events).Data[I];
-		if (distance(P, Event.Center) < Event.Radius) { Window.Frames = min(Window.Frames, Event.Window); }
-	}
-	float Share = 0.0;
-	for (uint I = 0u; I < Grid.MoverCount; ++I) { Share += GetMovedShare(FMovedCasterRef(Grid.Movers).Data[I], P, Normal); }
+	vec2 Moved = vec2(0.0, GetLampChange(Grid.Events, Grid.EventCount, P));
+	for (uint I = 0u; I < Grid.MoverCount; ++I) { Moved += GetMovedShare(FMovedCasterRef(Grid.Movers).Data[I], P, Normal); }
+	float Brightness = max(Luminance(UnpackRgbe(Cell.Light)), Luminance(Light));
+	float Share = Moved.x + min(Moved.y / max(Brightness, 1.0e-20), 1.0);
 	// What changes by so much in a frame may be averaged over as many as make the whole, and be it one update.
 	if (Window.Frames * Share > 1.0) { Window = FWindow(1.0 / Share, 1.0); }
 	return Window;
@@ -42,11 +39,11 @@ void main()
 	FRadianceCell Cell = Cells.Data[Slot];
 	// The window is one of time: a cell that waits for its turn averages over fewer samples.
 	float Waited = float(max(RadianceTurnsSince(Grid, RadianceCellUpdated(Cell.State)), 1u));
-	FWindow Window = GetWindow(Grid, Cell);
+	FRadianceResult Result = FRadianceResultRef(Grid.Results).Data[Number];
+	FWindow Window = GetWindow(Grid, Cell, Result.Light);
 	uint Most = uint(clamp(Window.Frames / Waited, Window.Least, float(RADIANCE_CELL_COUNT_MASK)));
 	uint Count = min(RadianceCellCount(Cell.State) + 1u, Most);
 	vec3 Mean = UnpackRgbe(Cell.Light);
-	FRadianceResult Result = FRadianceResultRef(Grid.Results).Data[Number];
 	vec3 Moment = UnpackMeanDirection(Cell.From) * Luminance(Mean);
 	Mean += (Result.Light - Mean) / float(Count);
 	Moment += (Result.Moment - Moment) / float(Count);

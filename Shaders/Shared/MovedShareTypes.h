@@ -1,4 +1,4 @@
-// The share of a surface's light that objects which move may have changed.
+// By how much objects that move and lamps that change may have changed a surface's light.
 #ifndef LANTERN_MOVED_SHARE_TYPES_H
 #define LANTERN_MOVED_SHARE_TYPES_H
 
@@ -12,9 +12,11 @@ struct FMovedShareConstants
 	FAddress Casters; // FMovedCaster[CasterCount]
 	uint CasterCount; // at most SETTLED_MOST_CASTERS
 	uint Depth, Normals; // sampled indices
-	uint Output;         // storage index
+	uint Output;         // storage index; x: share of the light, y: radiance
+	uint LampCount;      // at most RADIANCE_CELL_MOST_EVENTS
+	FAddress Lamps;      // FRadianceEvent[LampCount]
 };
-LANTERN_ASSERT_SIZE(FMovedShareConstants, 40);
+LANTERN_ASSERT_SIZE(FMovedShareConstants, 56);
 
 LANTERN_SHARED_END
 

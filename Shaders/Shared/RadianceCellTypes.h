@@ -65,13 +65,13 @@ LANTERN_ASSERT_SIZE(FRadianceVote, 28);
 
 #define RADIANCE_CELL_MOST_EVENTS 64u
 
-// A sphere in which something has changed.
+// A lamp that has changed.
 struct FRadianceEvent
 {
-	vec3 Center;  // relative to the scene's origin, metres
-	float Radius; // metres
-	float Window; // most frames over which cells in it average
-	float Pad;
+	vec3 Center;    // relative to the scene's origin, metres
+	float Radius;   // metres; negative: it shines from one direction on everything
+	float Strength; // what came or went of its intensity, in units of radiance times square metres; or of its irradiance
+	float Moved;    // way times intensity
 };
 LANTERN_ASSERT_SIZE(FRadianceEvent, 24);
 

@@ -21,9 +21,10 @@ struct FMovedCaster
 	vec3 From;
 	float Radius; // metres
 	vec3 To;
-	float Changed; // about the part of what it hides, or of how it looks, that is new: 0 to 1; several times as much of what shines
+	float Changed;  // about the part of what it hides, or of how it looks, that is new: 0 to 1
+	float Emission; // mean radiance of what it emits; 0 as well if that is as it was, and nothing moved
 };
-LANTERN_ASSERT_SIZE(FMovedCaster, 32);
+LANTERN_ASSERT_SIZE(FMovedCaster, 36);
 
 struct FSettledConstants
 {

@@ -13,9 +13,12 @@
 void FollowShare(ivec2 Pixel, FFrameEstimate Frame, inout FHistory History)
 {
 	if (Push.ChangedShare == NO_TEXTURE) { return; }
-	float Share = texelFetch(Textures[Push.ChangedShare], Pixel, 0).x;
-	float Error = Share * max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean);
-	if (Error > 0.0) { History.ResamplingVariance += Error * Error; }
+	vec2 Changed = texelFetch(Textures[Push.ChangedShare], Pixel, 0).xy;
+	float Error = Changed.x * max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean) + Changed.y;
+	if (Error <= 0.0) { return; }
+	float Brightness = max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean);
+	History.Past.Frames *= 1.0 - min(Error / max(Brightness, 1.0e-20), 1.0);
+	History.ResamplingVariance += Error * Error;
 }
 
 void FollowChange(ivec2 Pixel, inout FHistory History)

@@ -152,13 +152,62 @@ TEST_F(FRadianceCellsMockTest, MoversThatHideMostCountFirst)
 	}
 }
 
-TEST_F(FRadianceCellsMockTest, LampsTellHowFarTheyReach)
+TEST_F(FRadianceCellsMockTest, LampsTellHowMuchTheyBring)
 {
 	Start({.bLights = true});
-	Engine->GetScene().SetSceneLights(false);
-	EXPECT_EQ(RenderAndGetTold().Window, 4.0f) << "a lamp without a range reaches everything";
+	const FRadianceGrid Quiet = GetTold();
+	EXPECT_EQ(Quiet.EventCount, 0u);
+	EXPECT_FALSE(HasPass("MovedShare"));
+	FSceneLight Lamp;
+	Lamp.Position = {1, 2, 3};
+	Lamp.Color = glm::vec3(100.0f);
+	Lamp.Range = 7.0f;
+	const FLightId Id = GetScene().AddLight(Lamp);
+	const FRadianceGrid Told = RenderAndGetTold();
+	ASSERT_EQ(Told.EventCount, 1u);
+	const auto Event = ReadMockEntry<FRadianceEvent>(Mock(), Told.Events, 0);
+	EXPECT_EQ(Event.Radius, 7.0f);
+	EXPECT_NEAR(Event.Strength, 100.0f, 1e-3f);
+	EXPECT_GT(Told.Budget, Quiet.Budget) << "all of it is new";
+	EXPECT_NEAR(Told.Window, QuietFrames, 0.1f) << "elsewhere nothing has changed";
+	EXPECT_TRUE(HasPass("MovedShare")) << "the filter is told as well";
 	Wait();
-	EXPECT_NEAR(RenderAndGetTold().Window, QuietFrames, 0.1f);
+	EXPECT_EQ(RenderAndGetTold().EventCount, 0u);
+	for (const float Dimmed : {90.0f, 95.0f, 94.0f})
+	{
+		Lamp.Color = glm::vec3(Dimmed);
+		GetScene().SetLight(Id, Lamp);
+		Render();
+	}
+	const FRadianceGrid Flickers = RenderAndGetTold();
+	ASSERT_EQ(Flickers.EventCount, 1u) << "one lamp";
+	EXPECT_NEAR(ReadMockEntry<FRadianceEvent>(Mock(), Flickers.Events, 0).Strength, 10.0f, 1e-3f) << "the greatest change of late";
+	EXPECT_EQ(Flickers.Budget, Quiet.Budget) << "flicker is usual";
+	Wait();
+	Lamp.Position.x += 50.0;
+	GetScene().SetLight(Id, Lamp);
+	EXPECT_EQ(RenderAndGetTold().EventCount, 2u) << "where it was, and where it is";
+	Set("r.RT.Debug.GI.Events", "0");
+	EXPECT_EQ(RenderAndGetTold().EventCount, 0u) << "the planted fault";
+	EXPECT_FALSE(HasPass("MovedShare"));
+}
+
+TEST_F(FRadianceCellsMockTest, LampsThatBringMostCountFirst)
+{
+	Start({.bLights = true});
+	FSceneLight Lamp;
+	Lamp.Color = glm::vec3(100.0f);
+	for (uint32_t I = 0; I < RADIANCE_CELL_MOST_EVENTS + 20; ++I)
+	{
+		Lamp.Position = {I < 20 ? 1000.0 : 0.01 * I, 0, 0};
+		GetScene().AddLight(Lamp);
+	}
+	const FRadianceGrid Told = RenderAndGetTold();
+	ASSERT_EQ(Told.EventCount, RADIANCE_CELL_MOST_EVENTS);
+	for (uint32_t I = 0; I < Told.EventCount; ++I)
+	{
+		ASSERT_LT(ReadMockEntry<FRadianceEvent>(Mock(), Told.Events, I).Center.x, 500.0f) << "what is far away had no room";
+	}
 }
 
 TEST_F(FRadianceCellsMockTest, SizesAreRoundedWithOneMessage)

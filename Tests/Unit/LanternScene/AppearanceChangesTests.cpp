@@ -19,7 +19,7 @@ TEST(FAppearanceTest, ComparesWhatIsReflectedAndEmitted)
 	New = Old;
 	New.BaseColor = {0.25f, 0.25f, 0.25f, 1.0f};
 	EXPECT_NEAR(CompareAppearance(Old, New).Part, 0.5, 1e-6);
-	EXPECT_FALSE(CompareAppearance(Old, New).bShines);
+	EXPECT_EQ(CompareAppearance(Old, New).Emission, 0.0);
 	New = Old;
 	New.Textures[TEXTURE_BASE_COLOR] = 7;
 	EXPECT_EQ(CompareAppearance(Old, New).Part, 1.0);
@@ -33,7 +33,7 @@ TEST(FAppearanceTest, ComparesWhatIsReflectedAndEmitted)
 	New.LightEmissive = glm::vec3(10.0f);
 	New.EmissiveWeight = 10.0f;
 	EXPECT_EQ(CompareAppearance(Old, New).Part, 1.0);
-	EXPECT_TRUE(CompareAppearance(Old, New).bShines);
+	EXPECT_EQ(CompareAppearance(Old, New).Emission, 10.0);
 	FMaterialData Dim = New;
 	Dim.LightEmissive = glm::vec3(9.0f);
 	Dim.EmissiveWeight = 9.0f;
@@ -86,7 +86,7 @@ TEST_F(FAppearanceChangesSceneTest, TellsTheObjectsOfAMaterial)
 	Dim(1.0f);
 	EXPECT_EQ(Take(), (std::vector<uint32_t>{A.Index, C.Index}));
 	EXPECT_NEAR(Found[0].Changed, 0.5, 1e-6);
-	EXPECT_TRUE(Found[0].bShines);
+	EXPECT_EQ(Found[0].Emission, 2.0);
 	EXPECT_EQ(Scene->GetCasterChanges().GetCount(), Casters) << "shadows are as they were";
 	Dim(1.0f);
 	EXPECT_TRUE(Take().empty()) << "nothing has changed";

@@ -107,7 +107,7 @@ TEST_F(FCasterChangesSceneTest, TellsWhereAnObjectWasAndIs)
 	EXPECT_GE(Found[0].Radius, 0.7) << "the triangle's corners are 1.4 m apart";
 	EXPECT_EQ(Found[0].Object, Object.Index);
 	EXPECT_EQ(Found[0].Changed, 1.0) << "it lies where nothing of it was";
-	EXPECT_FALSE(Found[0].bShines);
+	EXPECT_EQ(Found[0].Emission, 0.0);
 	Transform[3].x += Found[0].Radius;
 	Scene->SetTransform(Object, Transform);
 	ASSERT_EQ(Count(), 1);
@@ -159,12 +159,12 @@ TEST_F(FCasterChangesSceneTest, TellsWhatShinesAndWhatDidSo)
 	Count();
 	Scene->SetMaterials(Object, {Glowing});
 	ASSERT_EQ(Count(), 1);
-	EXPECT_TRUE(Found[0].bShines);
+	EXPECT_EQ(Found[0].Emission, 2.0);
 	EXPECT_EQ(Found[0].Changed, 1.0);
 	Scene->SetMaterials(Other, {Material});
 	ASSERT_EQ(Count(), 2) << "as it was, and as it is";
-	EXPECT_TRUE(Found[0].bShines);
-	EXPECT_FALSE(Found[1].bShines);
+	EXPECT_EQ(Found[0].Emission, 2.0);
+	EXPECT_EQ(Found[1].Emission, 0.0);
 	EXPECT_EQ(Found[1].Object, Other.Index);
 }
 

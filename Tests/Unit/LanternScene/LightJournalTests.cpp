@@ -88,5 +88,67 @@ TEST(FLightJournalTest, ReachesAreThoseOfLightsOnTheGpu)
 	}
 }
 
+TEST(FLightChangesTest, StoresWriteWhatCameAndWent)
+{
+	FLightStore Store;
+	auto Take = [&, Seen = uint64_t(0)]() mutable {
+		std::vector<FLightChange> Out;
+		EXPECT_TRUE(Store.GetStrengthChanges().GetSince(Seen, Out));
+		Seen = Store.GetStrengthChanges().GetCount();
+		return Out;
+	};
+	FSceneLight Lamp = MakeLight(0, 5);
+	Lamp.Color = glm::vec3(8.0f);
+	const FLightId Id = Store.Add(Lamp);
+	std::vector<FLightChange> Changes = Take();
+	ASSERT_EQ(Changes.size(), 1u);
+	EXPECT_NEAR(Changes[0].Strength, 8.0, 1e-6);
+	EXPECT_EQ(Changes[0].Part, 1.0);
+	EXPECT_EQ(Changes[0].Range, 5.0);
+	Store.Set(Id, Lamp);
+	EXPECT_TRUE(Take().empty()) << "as it was";
+	Lamp.Color = glm::vec3(6.0f);
+	Store.Set(Id, Lamp);
+	Changes = Take();
+	ASSERT_EQ(Changes.size(), 1u);
+	EXPECT_NEAR(Changes[0].Strength, 2.0, 1e-6);
+	EXPECT_NEAR(Changes[0].Part, 0.25, 1e-6);
+	EXPECT_EQ(Changes[0].Moved, 0.0);
+	Lamp.Position.x = 0.5;
+	Store.Set(Id, Lamp);
+	Changes = Take();
+	ASSERT_EQ(Changes.size(), 1u);
+	EXPECT_EQ(Changes[0].Strength, 0.0);
+	EXPECT_NEAR(Changes[0].Moved, 3.0, 1e-6) << "half a metre of 6 cd";
+	Lamp.OuterCone = 1.0f;
+	Store.Set(Id, Lamp);
+	Changes = Take();
+	ASSERT_EQ(Changes.size(), 1u);
+	EXPECT_NEAR(Changes[0].Strength, 6.0, 1e-6) << "it may shine elsewhere";
+	Lamp.Position.x = 9.0;
+	Store.Set(Id, Lamp);
+	Changes = Take();
+	ASSERT_EQ(Changes.size(), 2u);
+	EXPECT_EQ(Changes[0].Position.x, 0.5);
+	EXPECT_EQ(Changes[1].Position.x, 9.0);
+	Store.Remove(Id);
+	Changes = Take();
+	ASSERT_EQ(Changes.size(), 1u);
+	EXPECT_EQ(Changes[0].Part, 1.0);
+}
+
+TEST(FLightChangesTest, IntensityIsThatFromFarAway)
+{
+	FSceneLight Lamp;
+	Lamp.Color = glm::vec3(2.0f);
+	Lamp.Size = {3.0f, 5.0f};
+	Lamp.Type = LIGHT_RECTANGLE;
+	EXPECT_NEAR(GetPeakIntensity(Lamp), 30.0, 1e-5);
+	Lamp.Type = LIGHT_SPHERE;
+	EXPECT_NEAR(GetPeakIntensity(Lamp), 2.0 * 9.0 * 3.14159265358979, 1e-5);
+	Lamp.Type = LIGHT_DIRECTIONAL;
+	EXPECT_NEAR(GetPeakIntensity(Lamp), 2.0, 1e-6);
+}
+
 } // namespace
 } // namespace Lantern

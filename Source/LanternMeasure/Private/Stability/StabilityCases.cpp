@@ -63,17 +63,19 @@ FStabilityFault MakeThinWallFault(const FMethod& Method)
 FStabilityFault MakeUncoveringFault(const FMethod&)
 {
 	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Validate", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"},
-	                     {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"}}),
+	                     {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"},
+	                     {"r.RT.GI.HistorySeconds", "60"}, {"r.RT.Debug.GI.Events", "0"}}),
 	    "");
 }
 
 FStabilityFault MakeStaleLampsFault(const FMethod& Method)
 {
 	// Of a method that keeps nothing, the case itself hides the switch.
-	const bool bFiltered = std::any_of(Method.Settings.begin(), Method.Settings.end(),
-	    [](const FMethodSetting& Setting) { return Setting.Name == "r.RT.Lights.Denoise" && Setting.Value == "1"; });
-	const auto Stale =
-	    KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Lights.HistorySeconds", "60"}, {"r.RT.Debug.Lights.Rescale", "0"}});
+	const bool bFiltered = std::any_of(Method.Settings.begin(), Method.Settings.end(), [](const FMethodSetting& Setting) {
+		return (Setting.Name == "r.RT.Lights.Denoise" || Setting.Name == "r.RT.GI.Denoise") && Setting.Value == "1";
+	});
+	const auto Stale = KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Lights.HistorySeconds", "60"},
+	    {"r.RT.Debug.Lights.Rescale", "0"}, {"r.RT.GI.HistorySeconds", "60"}, {"r.RT.Debug.GI.Events", "0"}});
 	return MakeFault(bFiltered ? Stale : std::vector<FMethodSetting>(), "the lamp is switched ten frames late");
 }
 
@@ -88,8 +90,9 @@ FStabilityFault MakeBlindLampsFault(const FMethod&)
 /// History that is kept for a minute and never compared with what is there now.
 FStabilityFault MakeStaleFault(const FMethod&)
 {
-	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"},
-	                     {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"}}),
+	return MakeFault(
+	    KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"},
+	        {"r.RT.Lights.HistorySeconds", "60"}, {"r.RT.GI.HistorySeconds", "60"}, {"r.RT.Debug.GI.Events", "0"}}),
 	    "");
 }
 
@@ -123,6 +126,9 @@ FStabilityFault MakeSeamsFault(const FMethod& Method)
 	    bFew && !bFiltered ? NoSecondRay : std::vector<FMethodSetting>(), "every other tile is brighter, by 10 and 30 % in turn");
 }
 
+/// Only caches can be too small; other methods show the flight without a limit.
+FStabilityFault MakeDarkFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Debug.GI.Fallback", "0"}}), ""); }
+
 FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CasterFaces", "2"}}), ""); }
 } // namespace
 
@@ -131,12 +137,12 @@ std::span<const FStabilityCase> GetStabilityCases()
 	static const std::vector<FStabilityCase> Cases = {
 	    {1, "thin wall", {Sun, Diffuse, Reflected}, MeasureThinWall, MakeThinWallFault},
 	    {2, "edge and level of detail", {}},
-	    {3, "nested votes", {}},
-	    {4, "light switch", {LampDiffuse, LampSpecular}, MeasureLightSwitch, MakeStaleLampsFault},
+	    {3, "nested votes", {Diffuse}, MeasureTemple, nullptr, "the sun is 20 % brighter"},
+	    {4, "light switch", {Diffuse, LampDiffuse, LampSpecular}, MeasureLightSwitch, MakeStaleLampsFault},
 	    {5, "time of day", {Sun, Diffuse, Reflected}, MeasureTimeOfDay, nullptr, "the plugin is not told that the sun moves"},
-	    {6, "flicker", {LampDiffuse, LampSpecular}, MeasureFlicker, MakeStaleLampsFault},
+	    {6, "flicker", {Diffuse, LampDiffuse, LampSpecular}, MeasureFlicker, MakeStaleLampsFault},
 	    {7, "tiny emitters", {Diffuse, LampDiffuse}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},
-	    {8, "boiling", {LampDiffuse, LampSpecular}, MeasureBoiling, MakeBlindLampsFault},
+	    {8, "boiling", {Diffuse, LampDiffuse, LampSpecular}, MeasureBoiling, MakeBlindLampsFault},
 	    {9, "disocclusion", EverySignal(false, ELamps::Yes), MeasureDisocclusion, MakeUncoveringFault},
 	    {10, "ghost", EverySignal(false, ELamps::Yes), MeasureGhost, MakeStaleFault},
 	    {11, "shadow lag", {Sun, LampDiffuse}, MeasureShadowLag, nullptr, "the fan is where it was three frames ago"},
@@ -144,7 +150,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {13, "thin specular", {LampSpecular}, MeasureThinSpecular, MakeBlindLampsFault},
 	    {14, "not a number", EverySignal(true), MeasureNotANumber, MakeUnguardedFault},
 	    {15, "huge mesh", {}},
-	    {16, "hash overflow", {}},
+	    {16, "hash overflow", {Diffuse}, MeasureHashOverflow, MakeDarkFault},
 	    {17, "light grid", {LampDiffuse}, MeasureLightGrid, nullptr, "every other metre is 5 % brighter"},
 	    {18, "frame rate", EverySignal(false, ELamps::Yes), MeasureFrameRate, nullptr,
 	        "every frame is said to last 1/60 s, and changes are not looked for"},

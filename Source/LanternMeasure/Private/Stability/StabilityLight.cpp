@@ -90,11 +90,12 @@ FRTStatus MeasureLightSwitch(FStabilityStage& Stage, std::vector<FStabilityFigur
 	std::vector<double> Means;
 	for (const FImage& Frame : Frames) { Means.push_back(MeanOver(Frame)); }
 	for (const int At : {Dark, Dark + 2, Dark + 16, Dark + Lit, Dark + Lit + 2}) { Stage.AddToStrip(Frames[size_t(At)], Reference.Mean); }
-	Out.push_back({"frames to 90 % of the light", FramesTo(Means, Dark, 0.9 * Whole, true), 6.0});
+	const double Frames90 = Stage.GetSignal() == ESignal::DiffuseGI ? 16.0 : 6.0; // light of several bounces
+	Out.push_back({"frames to 90 % of the light", FramesTo(Means, Dark, 0.9 * Whole, true), Frames90});
 	// Where no lamp shines, nothing is accumulated: the filter cannot be made to fail there, and a late switch can.
 	const bool bStale = Stage.IsBroken() && !Stage.IsFaulty();
 	Out.push_back({"frames to 10 % of the light", FramesTo(Means, Dark + Lit, 0.1 * Whole, false),
-	    bStale ? std::nullopt : std::optional<double>(6.0)});
+	    bStale ? std::nullopt : std::optional<double>(Frames90)});
 	const double Least = *std::min_element(Means.begin() + Dark + 16, Means.begin() + Dark + Lit);
 	// A method that keeps nothing cannot fail these.
 	const auto Limit = [&](double Value) { return Stage.KeepsHistory() ? std::optional<double>(Value) : std::nullopt; };

@@ -26,6 +26,9 @@ constexpr const char* SecondLobe = "SECOND_LOBE";
 TRTConsoleVariable<bool> CVarMixturePdf("r.RT.Debug.GI.MixturePdf", true,
     "Planted fault. If off, paths that a guide or a second lobe draws count as if the cosine alone had drawn them.");
 
+TRTConsoleVariable<bool> CVarFallback(
+    "r.RT.Debug.GI.Fallback", true, "Planted fault. If off, paths that find no radiance cell where they end bring no light.");
+
 FShaderSource MakeFillSource(EPixelRate Rate)
 {
 	FShaderDefines Defines;
@@ -241,7 +244,9 @@ void AddDeferredPasses(const FBruteForcePass& Settings, FFrameContext& Context, 
 	FBesideUpdates Beside;
 	Beside.Pass = std::string(GetSignalInfo(Settings.Signal).Pass) + "Deferred";
 	Beside.Declare = [&](FPassBuilder& Builder) { DeclarePaths(Builder, Settings, GBuffer, Paths, true); };
-	Beside.Record = [=, Frame = &Context, &Settings](FPassContext& Pass) { RecordPaths(Pass, *Frame, Settings, GBuffer, Paths, true); };
+	Beside.Record = [=, Frame = &Context, &Settings, bFallback = CVarFallback.GetOnRenderThread()](FPassContext& Pass) {
+		if (bFallback) { RecordPaths(Pass, *Frame, Settings, GBuffer, Paths, true); }
+	};
 	const ERayPath Path = Paths.First.Compute ? ERayPath::Query : ERayPath::Pipeline;
 	if (!AddRadianceCellPasses(Context, GBuffer, Path, Beside)) { AddPathsPass(Settings, Context, GBuffer, Paths, true); }
 }

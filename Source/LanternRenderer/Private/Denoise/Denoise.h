@@ -39,7 +39,7 @@ struct FDenoiseInputs
 	/// For colours, RGBA16_FLOAT: by how much they are known to have changed since the last frame, and the standard deviation of the error
 	/// in it. Negative: the history is to be given up. Invalid: nothing is known of a change.
 	FGraphTexture Change;
-	/// For colours, R16_FLOAT: share of them that may have changed since the last frame, nobody knows how. Invalid: none.
+	/// For colours, RG16_FLOAT: share of them, and radiance, that may have changed since the last frame, nobody knows how. Invalid: none.
 	FGraphTexture ChangedShare;
 	FShadowChanges Changes;  ///< of the shadows of the sun or of lamps; what is not known is looked for in the signal
 	FHistoryTexture History; ///< what RequireDenoiseHistory gave in this frame; Current is invalid: nobody called it

@@ -1,7 +1,8 @@
-// The pass that finds where objects that move have changed the light.
+// The pass that finds where objects that move and lamps that change have changed the light.
 #include "DiffuseGI/MovedShare.h"
 
 #include "MovedShareTypes.h"
+#include "RadianceCells/RadianceCells.h"
 #include "RadianceCells/RadianceEvents.h"
 #include "TileTypes.h"
 #include "Tiles/MovedCasters.h"
@@ -24,12 +25,16 @@ FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer)
 	if (!AreIndirectChangesTold()) { return {}; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource()); // before it is needed: then it would be too late
 	const FMoversOfFrame& Movers = RequireMovers(Context);
-	if (!Pipeline || Movers.Count == 0) { return {}; }
+	const FRadianceCells* const Cells = Context.RadianceCells.get();
+	const uint32_t LampCount = Cells ? Cells->Grid.EventCount : 0;
+	if (!Pipeline || (Movers.Count == 0 && LampCount == 0)) { return {}; }
 	FMovedShareConstants C{};
 	C.Pass = Context.Pass;
 	C.Casters = Movers.Casters;
 	C.CasterCount = Movers.Count;
-	const FGraphTexture Share = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "MovedShare");
+	C.LampCount = LampCount;
+	C.Lamps = LampCount > 0 ? Cells->Grid.Events : 0;
+	const FGraphTexture Share = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG16_FLOAT}, "MovedShare");
 	Context.Graph.AddPass("MovedShare", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		Builder.Write(Share, ERTAccess::StorageWrite);

@@ -98,7 +98,7 @@ FRadianceGrid MakeGrid(const FFrameContext& Context, uint32_t Slots, const FRadi
 	Grid.Budget = static_cast<uint32_t>(std::min(Updates * Delta, MostBudget));
 	Grid.Room = DivideUp(std::min(Grid.Budget + Grid.Budget / 16 + 256, RADIANCE_CELL_MOST_UPDATES), RADIANCE_CELL_ROW) * RADIANCE_CELL_ROW;
 	Grid.Window = std::min(CVarSeconds.GetOnRenderThread() / Delta, Events.Window);
-	Grid.EventCount = static_cast<uint32_t>(Events.Spheres.size());
+	Grid.EventCount = static_cast<uint32_t>(Events.Lamps.size());
 	Grid.SizeAngle = CVarSizeAngle.GetOnRenderThread();
 	Grid.NearCells = CVarNear.GetOnRenderThread();
 	return Grid;
@@ -119,7 +119,8 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context, uint32_t
 {
 	const auto Cells = std::make_shared<FRadianceCells>();
 	Cells->Slots = GetSlots();
-	const FRadianceEvents::FFound Events = Context.RadianceEvents->Find(Context.Scene, Context.View.DeltaSeconds);
+	const FRadianceEvents::FFound Events =
+	    Context.RadianceEvents->Find(Context.Scene, MakeGatherView(Context.View).Position, Context.View.DeltaSeconds);
 	Cells->Grid = MakeGrid(Context, Cells->Slots, Events);
 	Cells->Grid.VoteCount = Voters;
 	Cells->EventFrames = Events.Window;
@@ -127,10 +128,10 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context, uint32_t
 	FRTStatus Status = Context.History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);
 	FFrameUploads& Uploads = Context.Owner->GetUploads();
 	if (Status) { Status = Uploads.Allocate(sizeof(FRadianceGrid), Cells->GridData); }
-	if (Status && !Events.Spheres.empty())
+	if (Status && !Events.Lamps.empty())
 	{
 		FUploadSlice Slice;
-		Status = Uploads.Push(Events.Spheres.data(), Events.Spheres.size() * sizeof(FRadianceEvent), Slice);
+		Status = Uploads.Push(Events.Lamps.data(), Events.Lamps.size() * sizeof(FRadianceEvent), Slice);
 		Cells->Grid.Events = Slice.Address;
 	}
 	if (!Status)

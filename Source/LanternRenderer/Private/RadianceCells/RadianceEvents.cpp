@@ -1,8 +1,9 @@
-// From changes of the scene to spheres in which radiance cells forget.
+// From changes of the scene to what radiance cells and filters forget.
 #include "RadianceCells/RadianceEvents.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <glm/gtc/constants.hpp>
 
@@ -17,6 +18,7 @@ TRTConsoleVariable<bool> CVarEvents("r.RT.Debug.GI.Events", true,
     "Planted fault. Off: radiance cells and the filter of global illumination are not told what has changed, and average over it.");
 
 constexpr double DegreesInWindow = 1.0; // that the sun may move while a cell averages
+constexpr double HurriedPart = 0.5;     // of a lamp's light that comes or goes; what flickers by less is usual
 constexpr double ChangeInWindow = 0.1;  // by which a strength may change meanwhile, of the greater one
 
 double GetChange(const glm::vec3& A, const glm::vec3& B)
@@ -33,41 +35,73 @@ double GetWindow(const glm::dvec3& SunBefore, const glm::dvec3& SunNow, double S
 	return Rate > 0.0 ? 1.0 / Rate : 1.0e9;
 }
 
-/// Position: as FLightReach has it.
-glm::dvec3 ToWorld(const FRTScene& Scene, const glm::ivec3& Position)
+/// What a lamp brings to a place at about this distance.
+double GetBrought(const FLightChange& Change, const glm::dvec3& Place)
 {
-	const glm::dvec3 Origin = Scene.GetOrigin();
-	glm::dvec3 World = Origin;
-	for (int Axis = 0; Axis < 3; ++Axis)
+	constexpr double Nearest = 0.5; // metres
+	if (Change.bDirectional) { return Change.Strength; }
+	const double Distance = std::max(glm::length(Change.Position - Place), Nearest);
+	return (Change.Strength + 2.0 * Change.Moved / Distance) / (Distance * Distance);
+}
+
+constexpr double AtOnePlace = 1.0; // metres
+
+/// Joins changes of one lamp at about one place. What it is in a frame holds for some more, so the greatest counts and not the sum.
+template <typename TEvent>
+void JoinLamp(std::vector<TEvent>& Events, const TEvent& Event)
+{
+	for (TEvent& Other : Events)
 	{
-		const auto Start = static_cast<uint32_t>(std::llround(Origin[Axis] * double(LIGHT_POSITION_STEPS)));
-		World[Axis] += double(static_cast<int32_t>(static_cast<uint32_t>(Position[Axis]) - Start)) / double(LIGHT_POSITION_STEPS);
+		if (Other.Change.Slot != Event.Change.Slot || glm::length(Other.Change.Position - Event.Change.Position) > AtOnePlace) { continue; }
+		const FLightChange Before = Other.Change;
+		Other = Event;
+		Other.Change.Strength = std::max(Before.Strength, Event.Change.Strength);
+		Other.Change.Moved = std::max(Before.Moved, Event.Change.Moved);
+		Other.Change.Part = std::max(Before.Part, Event.Change.Part);
+		return;
 	}
-	return World;
+	Events.push_back(Event);
 }
 } // namespace
 
 void FRadianceEvents::FindLampEvents(const FRTScene& Scene)
 {
-	std::vector<FLightReach> Reaches;
-	const bool bKnown = Scene.GetLights().GetJournal().GetSince(Last.Lamps, Reaches);
-	if (!bKnown) { Fresh.push_back({}); }
-	for (const FLightReach& Reach : Reaches)
+	std::vector<FLightChange> Changes;
+	if (!Scene.GetLights().GetStrengthChanges().GetSince(Last.Lamps, Changes)) { Fresh.push_back({}); }
+	for (const FLightChange& Change : Changes) { JoinLamp(FreshLamps, FLampEvent{Change}); }
+}
+
+std::vector<FRadianceEvent> FRadianceEvents::MakeLampEvents(const FRTScene& Scene, const glm::dvec3& Camera) const
+{
+	std::vector<FLampEvent> All = KeptLamps;
+	for (const FLampEvent& Event : FreshLamps) { JoinLamp(All, Event); }
+	if (All.size() > RADIANCE_CELL_MOST_EVENTS)
 	{
-		if (Reach.Radius <= 0.0f) { Fresh.push_back({}); }
-		else { Fresh.push_back({ToWorld(Scene, Reach.Position), double(Reach.Radius)}); }
+		const auto Brings = [&](const FLampEvent& Event) { return GetBrought(Event.Change, Camera); };
+		std::ranges::stable_sort(All, std::greater{}, Brings);
+		All.resize(RADIANCE_CELL_MOST_EVENTS);
 	}
+	std::vector<FRadianceEvent> Out;
+	for (const FLampEvent& Event : All)
+	{
+		const FLightChange& Change = Event.Change;
+		const double Radius = Change.bDirectional ? -1.0 : Change.Range > 0.0 ? Change.Range : 1.0e9;
+		Out.push_back({Scene.ToRelative(Change.Position), static_cast<float>(Radius), static_cast<float>(std::min(Change.Strength, 1.0e30)),
+		    static_cast<float>(std::min(Change.Moved, 1.0e30))});
+	}
+	return Out;
 }
 
 bool AreIndirectChangesTold() { return CVarEvents.GetOnRenderThread(); }
 
-FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, float DeltaSeconds)
+FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds)
 {
 	const FSunLight& Sun = Scene.GetSun();
 	Next = {Scene.GetSections().GetIdentity(), glm::normalize(Sun.Direction), Sun.Color * Sun.Irradiance, Scene.GetSky(),
-	    Scene.GetLights().GetJournal().GetCount(), Scene.GetAppearanceChanges().GetEverywhere(), true};
+	    Scene.GetLights().GetStrengthChanges().GetCount(), Scene.GetAppearanceChanges().GetEverywhere(), true};
 	Delta = double(DeltaSeconds);
 	Fresh.clear();
+	FreshLamps.clear();
 	FFound Found;
 	if (!Last.bValid || Last.Scene != Next.Scene || !CVarEvents.GetOnRenderThread()) { return Found; }
 	const bool bSun = glm::length(Next.Sun) > 0.0f || glm::length(Last.Sun) > 0.0f;
@@ -77,18 +111,14 @@ FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, float DeltaSecond
 	FindLampEvents(Scene);
 	for (const std::vector<FEvent>* Events : {&Fresh, &Kept})
 	{
-		for (const FEvent& Event : *Events)
-		{
-			if (Event.Radius < 0.0) { Found.Window = std::min(Found.Window, Event.Window); }
-			else { Found.Spheres.push_back({Scene.ToRelative(Event.Center), static_cast<float>(Event.Radius), Event.Window, 0.0f}); }
-		}
+		for (const FEvent& Event : *Events) { Found.Window = std::min(Found.Window, Event.Window); }
 	}
-	if (Found.Spheres.size() > RADIANCE_CELL_MOST_EVENTS)
+	Found.Lamps = MakeLampEvents(Scene, Camera);
+	Found.bHurry = Found.Window <= float(LeastWindow);
+	for (const std::vector<FLampEvent>* Lamps : {&FreshLamps, &KeptLamps})
 	{
-		Found.Window = std::min(Found.Window, float(LeastWindow));
-		Found.Spheres.clear();
+		for (const FLampEvent& Lamp : *Lamps) { Found.bHurry |= Lamp.Change.Part >= HurriedPart; }
 	}
-	Found.bHurry = Found.Window <= float(LeastWindow) || !Found.Spheres.empty();
 	return Found;
 }
 
@@ -97,13 +127,17 @@ void FRadianceEvents::EndFrame(bool bSubmitted)
 	if (!bSubmitted) { return; }
 	Time += Delta;
 	Delta = 0.0;
-	for (FEvent& Event : Fresh)
-	{
-		Event.Until = Time + HoldSeconds;
-		Kept.push_back(Event);
-	}
+	const auto Keep = [Until = Time + HoldSeconds](auto Event) {
+		Event.Until = Until;
+		return Event;
+	};
+	for (const FEvent& Event : Fresh) { Kept.push_back(Keep(Event)); }
+	for (const FLampEvent& Lamp : FreshLamps) { JoinLamp(KeptLamps, Keep(Lamp)); }
 	Fresh.clear();
-	std::erase_if(Kept, [this](const FEvent& Event) { return Event.Until < Time; });
+	FreshLamps.clear();
+	const auto IsOver = [this](const auto& Event) { return Event.Until < Time; };
+	std::erase_if(Kept, IsOver);
+	std::erase_if(KeptLamps, IsOver);
 	Last = Next;
 	Next = {};
 }

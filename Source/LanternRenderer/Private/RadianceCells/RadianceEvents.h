@@ -22,12 +22,13 @@ public:
 		/// Frames over which cells anywhere may average; large if nothing but time limits it.
 		float Window = 1.0e9f;
 		bool bHurry = false; ///< more updates than usual are worth their time
-		/// Where cells must forget sooner, relative to the scene's origin, at most RADIANCE_CELL_MOST_EVENTS. What has no room counts as
-		/// one sphere around all.
-		std::vector<FRadianceEvent> Spheres;
+		/// Lamps that have changed, relative to the scene's origin. Of more than RADIANCE_CELL_MOST_EVENTS those that bring most to the
+		/// camera.
+		std::vector<FRadianceEvent> Lamps;
 	};
 	/// Finds what has changed since the view's last frame, and what did so less than HoldSeconds ago. DeltaSeconds: since that frame.
-	FFound Find(FRTScene& Scene, float DeltaSeconds);
+	/// Camera: in the world.
+	FFound Find(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds);
 	/// Counts the frames of a table of cells. bFresh: it begins anew. Returns those before this one.
 	uint32_t CountFrames(bool bFresh) { return Frames = bFresh ? 0 : Frames + 1; }
 	/// bSubmitted: false if the frame never runs; the next one then finds its changes again.
@@ -46,19 +47,24 @@ private:
 		double Surfaces = 0.0; ///< FAppearanceChanges::GetEverywhere
 		bool bValid = false;
 	};
-	/// A sphere of the world, or all of it, until a time.
+	/// A change of all light.
 	struct FEvent
 	{
-		glm::dvec3 Center{0};
-		double Radius = -1.0; ///< negative: everywhere
 		float Window = LeastWindow;
 		double Until = 0.0;
 	};
+	struct FLampEvent
+	{
+		FLightChange Change;
+		double Until = 0.0;
+	};
 	void FindLampEvents(const FRTScene& Scene);
+	std::vector<FRadianceEvent> MakeLampEvents(const FRTScene& Scene, const glm::dvec3& Camera) const;
 
 	FLight Last, Next;
 	std::vector<FEvent> Kept, Fresh; ///< of frames before, and of this one
-	double Time = 0.0;               ///< of the view's submitted frames, seconds
+	std::vector<FLampEvent> KeptLamps, FreshLamps;
+	double Time = 0.0; ///< of the view's submitted frames, seconds
 	double Delta = 0.0;
 	uint32_t Frames = 0;
 };

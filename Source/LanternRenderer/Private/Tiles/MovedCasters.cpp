@@ -24,10 +24,7 @@ TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Shadow.KnownChanges", true,
 /// 4/π of it, here 2 % per frame, and every pixel is traced in one frame of four.
 constexpr double LittleMove = 1.0 / 64.0;
 
-/// What shines is about so much brighter than what it hides.
-constexpr double ShiningWeight = 8.0;
-/// What is switched on or off may be all the light of its surroundings. What only moves takes its light along.
-constexpr double SwitchedWeight = 8.0; // times ShiningWeight
+constexpr double MostEmission = 1.0e30; // nits, of fp32
 
 /// False: the changes are more than tiles may look at, or may be anywhere. Out is empty then, as it must be before.
 bool FindFew(FRTScene& Scene, uint64_t Since, std::vector<FCasterChange>& Out)
@@ -52,7 +49,7 @@ std::vector<FCasterChange> JoinByObject(const std::vector<FCasterChange>& Change
 		FCasterChange& All = Joined[Place->second];
 		All.To = Change.To;
 		All.Radius = std::max(All.Radius, Change.Radius);
-		All.bShines |= Change.bShines;
+		All.Emission = std::max(All.Emission, Change.Emission);
 		All.Changed = std::min(All.Changed + Change.Changed, 1.0);
 	}
 	return Joined;
@@ -115,11 +112,7 @@ FMovedCasters::FRecent FMovedCasters::FindMovers(FRTScene& Scene, const glm::dve
 	std::vector<FCasterChange> Others;
 	Scene.GetAppearanceChanges().GetObjects().Find(Recent.front().Appearance, Others); // none if they are too many
 	std::vector<FCasterChange> Movers = JoinByObject(Moved);
-	for (FCasterChange Other : JoinByObject(Others))
-	{
-		Other.Changed *= Other.bShines ? SwitchedWeight : 1.0;
-		Movers.push_back(Other);
-	}
+	for (const FCasterChange& Other : JoinByObject(Others)) { Movers.push_back(Other); }
 	if (Movers.size() > SETTLED_MOST_CASTERS)
 	{
 		const auto Hides = [&](const FCasterChange& Mover) {
@@ -174,7 +167,7 @@ std::vector<FMovedCaster> FMovedCasters::Convert(FRTScene& Scene, const std::vec
 	for (const FCasterChange& Change : Changes)
 	{
 		Out.push_back({Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To),
-		    static_cast<float>(Change.bShines ? ShiningWeight * Change.Changed : Change.Changed)});
+		    static_cast<float>(Change.Changed), static_cast<float>(std::min(Change.Emission, MostEmission))});
 	}
 	return Out;
 }

@@ -91,6 +91,35 @@ bool ReachAlike(const FSceneLight& A, const FSceneLight& B)
 	       A.OuterCone == B.OuterCone && A.bTwoSided == B.bTwoSided;
 }
 
+double GetPeakIntensity(const FSceneLight& Light)
+{
+	const double Luminance = glm::dot(glm::dvec3(Light.Color), glm::dvec3(0.2126, 0.7152, 0.0722)), X = Light.Size.x, Y = Light.Size.y;
+	switch (Light.Type)
+	{
+	case LIGHT_RECTANGLE: return Luminance * X * Y;
+	case LIGHT_DISK:
+	case LIGHT_SPHERE: return Luminance * glm::pi<double>() * X * X;
+	case LIGHT_TUBE: return Luminance * (2.0 * X * Y + glm::pi<double>() * X * X);
+	default: return Luminance;
+	}
+}
+
+FLightChange CompareLights(uint32_t Slot, const FSceneLight& Before, const FSceneLight& After)
+{
+	const double Old = GetPeakIntensity(Before), New = GetPeakIntensity(After), Greater = std::max(Old, New);
+	FLightChange Change{Slot, After.Position, ReachesEverywhere(After) ? 0.0 : double(After.Range), After.Type == LIGHT_DIRECTIONAL};
+	FSceneLight Alike = Before; // but for what is told by strength and way
+	Alike.Position = After.Position;
+	Alike.Color = After.Color;
+	const glm::vec3 Difference = glm::abs(After.Color - Before.Color);
+	FSceneLight Differing = After;
+	Differing.Color = Difference;
+	Change.Strength = Alike == After ? std::min(GetPeakIntensity(Differing), Greater) : Greater;
+	Change.Moved = glm::length(After.Position - Before.Position) * Greater;
+	Change.Part = Greater > 0.0 ? Change.Strength / Greater : 0.0;
+	return Change;
+}
+
 FLightData PackLight(const FSceneLight& Light)
 {
 	assert(Light.Type != LIGHT_NONE && Light.Type <= LIGHT_TUBE);

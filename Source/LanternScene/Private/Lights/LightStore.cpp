@@ -28,6 +28,12 @@ FLightData FLightStore::PackMoved(const FSceneLight& Before, const FSceneLight& 
 
 namespace
 {
+FSceneLight MakeDark(FSceneLight Light)
+{
+	Light.Color = glm::vec3(0);
+	return Light;
+}
+
 FLightData NumberLight(FLightData Packed, FLightId Id)
 {
 	if (Packed.Number == 0) { Packed.Number = MakeLightNumber(Id); }
@@ -75,9 +81,22 @@ FLightId FLightStore::Add(const FSceneLight& Light)
 	++Changes;
 	Count(Light, 1);
 	Journal.Add(GetReach(Light));
+	Strengths.Add(CompareLights(Slot, MakeDark(Light), Light));
 	const FLightId Id{Slot, Slots.GetGeneration(Slot)};
 	Table.Set(Slot, NumberLight(Pack(Light), Id));
 	return Id;
+}
+
+void FLightStore::NoteStrength(uint32_t Slot, const FSceneLight& Before, const FSceneLight& After)
+{
+	constexpr double FarAway = 1.0; // metres: it is gone from one place, and has come to another
+	if (glm::length(After.Position - Before.Position) > FarAway)
+	{
+		Strengths.Add(CompareLights(Slot, Before, MakeDark(Before)));
+		return Strengths.Add(CompareLights(Slot, MakeDark(After), After));
+	}
+	const FLightChange Change = CompareLights(Slot, Before, After);
+	if (Change.Strength > 0.0 || Change.Moved > 0.0) { Strengths.Add(Change); }
 }
 
 void FLightStore::Set(FLightId Id, const FSceneLight& Light)
@@ -91,6 +110,7 @@ void FLightStore::Set(FLightId Id, const FSceneLight& Light)
 		Journal.Add(GetReach(Old));
 		Journal.Add(Reach);
 	}
+	NoteStrength(Id.Index, Old, Light);
 	Count(Old, ~0u);
 	Count(Light, 1);
 	const FLightData Packed = NumberLight(PackMoved(Old, Light, Table[Id.Index], Reach), Id);
@@ -104,6 +124,7 @@ void FLightStore::Remove(FLightId Id)
 	++Changes;
 	Count(Slots[Id.Index], ~0u);
 	Journal.Add(GetReach(Slots[Id.Index]));
+	Strengths.Add(CompareLights(Id.Index, Slots[Id.Index], MakeDark(Slots[Id.Index])));
 	Slots.Free(Id.Index);
 	if (Id.Index < Slots.Num()) { Table.Set(Id.Index, FLightData{}); }
 	Table.Truncate(Slots.Num());

@@ -43,7 +43,7 @@ void FRTScene::SetMaterial(uint32_t Index, const FMaterialData& Material)
 	const FMaterialData& Old = Materials.GetTable()[Index];
 	if (FSectionTable::AffectsShape(Old, Material)) { Objects.GetCasterChanges().AddAnywhere(); }
 	const FAppearanceChange Change = CompareAppearance(Old, Material);
-	if (Change.Part > 0.0) { Objects.NoteAppearance(Index, Change.Part, Change.bShines); }
+	if (Change.Part > 0.0) { Objects.NoteAppearance(Index, Change); }
 	Materials.Set(Index, Material);
 }
 

@@ -212,7 +212,7 @@ void FSceneObjects::NoteCaster(uint32_t Slot, const FInstanceRecord& Before, con
 	const double Radius = std::max(Before.Radius, After.Radius);
 	if (Radius >= UnboundedRadius) { return CasterChanges.AddAnywhere(); }
 	CasterChanges.Add({Before.Center, After.Center, Radius, Changed.value_or(GetMovedPart(Before, After, Radius)), Slot,
-	    Sections.GetRange(Objects[Slot].Range).bEmissive});
+	    Sections.GetMeanEmission(Objects[Slot].Range)});
 }
 
 void FSceneObjects::NoteCaster(uint32_t Slot, std::optional<double> Changed)
@@ -242,22 +242,23 @@ void FSceneObjects::LeaveRange(uint32_t Slot)
 	Sections.Release(Object.Range);
 }
 
-void FSceneObjects::NoteAppearance(uint32_t Material, double Change, bool bShines)
+void FSceneObjects::NoteAppearance(uint32_t Material, const FAppearanceChange& Change)
 {
-	std::vector<uint32_t> Slots;
+	std::vector<FCasterChange> Changes;
 	for (const FMaterialUse& Use : Sections.GetUses(Material))
 	{
+		const double Emission = Change.Emission > 0.0 ? Change.Emission * Sections.GetPart(Use.Range, Use.Section) : 0.0;
 		for (uint32_t Slot = FirstOfRange[Use.Range]; Slot != TSlots<FObject>::None; Slot = Objects[Slot].NextOfRange)
 		{
-			if (Slots.size() == FAppearanceChanges::MostObjects) { return AppearanceChanges.AddEverywhere(Change); }
-			Slots.push_back(Slot);
+			if (Changes.size() == FAppearanceChanges::MostObjects) { return AppearanceChanges.AddEverywhere(Change.Part); }
+			const FInstanceRecord& Record = Instances.GetRecord(Slot);
+			Changes.push_back({Record.Center, Record.Center, Record.Radius, Change.Part, Slot, Emission});
 		}
 	}
-	for (const uint32_t Slot : Slots)
+	for (const FCasterChange& Of : Changes)
 	{
-		const FInstanceRecord& Record = Instances.GetRecord(Slot);
-		if (Record.Radius >= UnboundedRadius) { AppearanceChanges.AddEverywhere(Change); }
-		else { AppearanceChanges.Add({Record.Center, Record.Center, Record.Radius, Change, Slot, bShines}); }
+		if (Of.Radius >= UnboundedRadius) { AppearanceChanges.AddEverywhere(Change.Part); }
+		else { AppearanceChanges.Add(Of); }
 	}
 }
 

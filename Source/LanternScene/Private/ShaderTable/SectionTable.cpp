@@ -203,6 +203,27 @@ void FSectionTable::MaterialChanged(uint32_t Material)
 	}
 }
 
+double FSectionTable::GetPart(FSectionRangeId Id, uint32_t Section) const
+{
+	const std::vector<FRTSectionInfo>& Sections = Ranges[Id].Geometry->GetInfo().Sections;
+	uint64_t All = 0;
+	for (const FRTSectionInfo& Info : Sections) { All += Info.IndexCount; }
+	return double(Sections[Section].IndexCount) / double(All);
+}
+
+double FSectionTable::GetMeanEmission(FSectionRangeId Id) const
+{
+	const FSectionRange& Range = Ranges[Id];
+	if (!Range.bEmissive) { return 0.0; }
+	double Sum = 0.0;
+	for (uint32_t Section = 0; Section < Range.Materials.size(); ++Section)
+	{
+		const double Weight = Context.Materials[Range.Materials[Section]].EmissiveWeight;
+		if (Weight > 0.0) { Sum += Weight * GetPart(Id, Section); }
+	}
+	return Sum;
+}
+
 void FSectionTable::GeometryChanged(const FRTGeometry& Geometry)
 {
 	if (Geometry.GetSlot() >= RangesOfGeometry.size()) { return; }

@@ -52,6 +52,8 @@ std::vector<FMethodSetting> KnownSettings(std::initializer_list<std::pair<const 
 
 // The measurements. Each is described at its definition.
 FRTStatus MeasureThinWall(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureTemple(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureHashOverflow(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureLightSwitch(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureTimeOfDay(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureFlicker(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include "LanternScene/Lights/LightJournal.h"
 #include "LightCellTypes.h"
 
 namespace Lantern
@@ -71,6 +72,12 @@ FLightReach GetReach(const FSceneLight& Light);
 
 /// Tells whether two lights bring something to the same points, though not the same light.
 bool ReachAlike(const FSceneLight& A, const FSceneLight& B);
+
+/// Returns the luminance of the light in its brightest direction: candela, from far away; of a directional light lux.
+double GetPeakIntensity(const FSceneLight& Light);
+
+/// Compares two states of one light.
+FLightChange CompareLights(uint32_t Slot, const FSceneLight& Before, const FSceneLight& After);
 
 /// Returns the light as shaders see it.
 FLightData PackLight(const FSceneLight& Light);

@@ -46,6 +46,8 @@ public:
 	uint64_t GetChangeCount() const { return Changes; }
 	/// What lights reached before and reach after each change of it.
 	const FLightJournal& GetJournal() const { return Journal; }
+	/// By how much lights brought more or less with each change.
+	const FLightChanges& GetStrengthChanges() const { return Strengths; }
 	TGpuTable<FLightData>& GetTable() { return Table; }
 	const TGpuTable<FLightData>& GetTable() const { return Table; }
 
@@ -54,11 +56,13 @@ private:
 	void Count(const FSceneLight& Light, uint32_t Times);
 	FLightData Pack(const FSceneLight& Light) const;
 	FLightData PackMoved(const FSceneLight& Before, const FSceneLight& Light, FLightData Packed, const FLightReach& Reach) const;
+	void NoteStrength(uint32_t Slot, const FSceneLight& Before, const FSceneLight& After);
 	uint32_t Extended = 0, Finite = 0, InFog = 0, Profiled = 0, OffChannel = 0;
 	std::array<uint32_t, size_t(ELightKind::Count)> Casters{};
 	uint32_t CastingKinds = ~0u;
 	uint64_t Changes = 0;
 	FLightJournal Journal;
+	FLightChanges Strengths;
 	TGpuTable<FLightData> Table{"Lights"};
 };
 

@@ -18,7 +18,7 @@ struct FCasterChange
 	double Radius = 0.0;       ///< of the larger sphere, metres
 	double Changed = 1.0;      ///< about the part of what it hides, or of how it looks, that is new: 0 to 1
 	uint32_t Object = 0;       ///< its slot, FRTObjectId::Index
-	bool bShines = false;      ///< some of its materials emit light
+	double Emission = 0.0;     ///< mean luminance of what it emits, nits; with FAppearanceChanges: if that has changed
 };
 
 class FCasterChanges
@@ -41,6 +41,11 @@ private:
 	uint64_t Anywhere = 0; // value of Count behind the last AddAnywhere
 };
 
+struct FAppearanceChange
+{
+	double Part = 0.0;     ///< of the light that the surface reflects or emits, 0 to 1
+	double Emission = 0.0; ///< greater luminance of what it emits, nits, if that has changed; else 0
+};
 /// Tells which objects look otherwise than before and thus reflect or emit other light: a material's colour, maps or emission is
 /// another one. No shadow has changed by that.
 class FAppearanceChanges

@@ -6,6 +6,7 @@
 
 #include "LanternScene/Memory/GpuTable.h"
 #include "LanternScene/Pipelines/MaterialPrograms.h"
+#include "LanternScene/Scene/CasterChanges.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
 #include "SceneTypes.h"
 
@@ -14,11 +15,6 @@ namespace Lantern
 
 class FEmissiveTriangles;
 
-struct FAppearanceChange
-{
-	double Part = 0.0;    ///< of the light that the surface reflects or emits, 0 to 1
-	bool bShines = false; ///< what it emits is what has changed
-};
 /// Tells by how much a surface that has another material lights its surroundings otherwise.
 FAppearanceChange CompareAppearance(const FMaterialData& Old, const FMaterialData& New);
 

@@ -48,9 +48,8 @@ public:
 	void SetChannels(FRTObjectId Id, uint8_t Channels);
 	/// Notes that the shape of all objects with this geometry is another one in this frame.
 	void MarkDeformed(const FRTGeometryRef& Geometry);
-	/// Notes that a material looks otherwise. Change: by which part, 0 to 1. bShines: it emits light, or did, and that has changed.
-	/// O(objects that have it, up to FAppearanceChanges::MostObjects).
-	void NoteAppearance(uint32_t Material, double Change, bool bShines);
+	/// Notes that a material looks otherwise. O(objects that have it, up to FAppearanceChanges::MostObjects).
+	void NoteAppearance(uint32_t Material, const FAppearanceChange& Change);
 	/// See FRTScene::SetBounds.
 	void SetBounds(const FRTGeometryRef& Geometry, const FBoundingSphere& Bounds);
 	const FRTObjectInfo& Get(FRTObjectId Id) const { return Resolve(Id).Info; }

@@ -82,6 +82,11 @@ public:
 	uint32_t GetLightEmissionRangeCount() const { return LightEmissionRangeCount; }
 	uint32_t GetEmissiveRangeCount() const { return EmissiveRangeCount; }
 
+	/// Returns the part of a range's surface that a section has, by its triangles: 0 to 1.
+	double GetPart(FSectionRangeId Id, uint32_t Section) const;
+	/// Returns the mean luminance of what a range emits, nits. O(sections).
+	double GetMeanEmission(FSectionRangeId Id) const;
+
 	/// Tells whether MaterialChanged would do anything. False for an animated colour, for example.
 	static bool AffectsSections(const FMaterialData& Old, const FMaterialData& New);
 	/// Tells whether rays may meet other surfaces: an alpha test or a facing changed. False for a lamp that flickers.
