@@ -42,13 +42,16 @@ void main()
 	FRadianceResult Result = FRadianceResultRef(Grid.Results).Data[Number];
 	FWindow Window = GetWindow(Grid, Cell, Result.Light);
 	uint Most = uint(clamp(Window.Frames / Waited, Window.Least, float(RADIANCE_CELL_COUNT_MASK)));
-	uint Count = min(RadianceCellCount(Cell.State) + 1u, Most);
+	uint Known = RadianceCellCount(Cell.State);
+	vec4 U = vec4(HashPcg4(uvec4(RadianceSeed(Grid, Cell), Grid.Turn, Known, 0x51ed270bu)) >> 8u) * (1.0 / 16777216.0);
+	// The first updates know too little of what comes by many surfaces. A cell averages over this part of its age.
+	bool bGrows = float(Known) < LeastWindow || U.w * 6.0 < 1.0;
+	uint Count = clamp(Known + (bGrows ? 1u : 0u), 1u, Most);
 	vec3 Mean = UnpackRgbe(Cell.Light);
 	vec3 Moment = UnpackMeanDirection(Cell.From) * Luminance(Mean);
 	Mean += (Result.Light - Mean) / float(Count);
 	Moment += (Result.Moment - Moment) / float(Count);
-	vec3 U = vec3(HashPcg4(uvec4(RadianceSeed(Grid, Cell), Grid.Turn, Count, 0x51ed270bu)).xyz >> 8u) * (1.0 / 16777216.0);
-	Cells.Data[Slot].Light = PackRgbe(max(Mean, vec3(0.0)), U);
+	Cells.Data[Slot].Light = PackRgbe(max(Mean, vec3(0.0)), U.xyz);
 	float Sum = Luminance(Mean);
 	Cells.Data[Slot].From = PackMeanDirection(Sum > 0.0 ? Moment / Sum : vec3(0.0), U.yzx);
 	const uint Kept = ~((1u << RADIANCE_CELL_ASKED_SHIFT) - 1u) | RADIANCE_CELL_COARSE;

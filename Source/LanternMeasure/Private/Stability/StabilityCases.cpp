@@ -83,7 +83,7 @@ FStabilityFault MakeStaleLampsFault(const FMethod& Method)
 FStabilityFault MakeBlindLampsFault(const FMethod&)
 {
 	return MakeFault(KnownSettings({{"r.RT.Lights.Exact", "1"}, {"r.RT.Lights.Candidates", "1"}, {"r.RT.Lights.GuideSeconds", "0"},
-	                     {"r.RT.Lights.HistorySeconds", "0.02"}}),
+	                     {"r.RT.Lights.HistorySeconds", "0.02"}, {"r.RT.GI.HistorySeconds", "0.02"}, {"r.RT.GI.FilterPasses", "0"}}),
 	    "");
 }
 
@@ -126,7 +126,7 @@ FStabilityFault MakeSeamsFault(const FMethod& Method)
 	    bFew && !bFiltered ? NoSecondRay : std::vector<FMethodSetting>(), "every other tile is brighter, by 10 and 30 % in turn");
 }
 
-/// Only caches can be too small; other methods show the flight without a limit.
+/// What finds no cell is dark.
 FStabilityFault MakeDarkFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Debug.GI.Fallback", "0"}}), ""); }
 
 FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CasterFaces", "2"}}), ""); }

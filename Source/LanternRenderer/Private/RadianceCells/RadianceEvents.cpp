@@ -44,47 +44,59 @@ double GetBrought(const FLightChange& Change, const glm::dvec3& Place)
 	return (Change.Strength + 2.0 * Change.Moved / Distance) / (Distance * Distance);
 }
 
-constexpr double AtOnePlace = 1.0; // metres
-
-/// Joins changes of one lamp at about one place. What it is in a frame holds for some more, so the greatest counts and not the sum.
-template <typename TEvent>
-void JoinLamp(std::vector<TEvent>& Events, const TEvent& Event)
+std::array<int64_t, 4> MakeKey(const FLightChange& Change)
 {
-	for (TEvent& Other : Events)
+	constexpr double Farthest = 1.0e15; // metres
+	std::array<int64_t, 4> Key{Change.Slot, 0, 0, 0};
+	for (int Axis = 0; Axis < 3; ++Axis)
 	{
-		if (Other.Change.Slot != Event.Change.Slot || glm::length(Other.Change.Position - Event.Change.Position) > AtOnePlace) { continue; }
-		const FLightChange Before = Other.Change;
-		Other = Event;
-		Other.Change.Strength = std::max(Before.Strength, Event.Change.Strength);
-		Other.Change.Moved = std::max(Before.Moved, Event.Change.Moved);
-		Other.Change.Part = std::max(Before.Part, Event.Change.Part);
-		return;
+		Key[size_t(Axis) + 1] = static_cast<int64_t>(std::floor(std::clamp(Change.Position[Axis], -Farthest, Farthest)));
 	}
-	Events.push_back(Event);
+	return Key;
 }
 } // namespace
+
+/// What it is in a frame holds for some more, so the greatest counts and not the sum.
+FRadianceEvents::FLampEvent FRadianceEvents::Join(
+    const FLampEvents& Events, const FLampEvents::key_type& Key, const FLampEvent& Event, double Weight)
+{
+	const auto Place = Events.find(Key);
+	if (Place == Events.end()) { return Event; }
+	const FLightChange& Before = Place->second.Change;
+	FLampEvent Joined = Event;
+	Joined.Change.Strength = std::max(Weight * Before.Strength, Event.Change.Strength);
+	Joined.Change.Moved = std::max(Weight * Before.Moved, Event.Change.Moved);
+	Joined.Change.Part = std::max(Weight * Before.Part, Event.Change.Part);
+	return Joined;
+}
 
 void FRadianceEvents::FindLampEvents(const FRTScene& Scene)
 {
 	std::vector<FLightChange> Changes;
 	if (!Scene.GetLights().GetStrengthChanges().GetSince(Last.Lamps, Changes)) { Fresh.push_back({}); }
-	for (const FLightChange& Change : Changes) { JoinLamp(FreshLamps, FLampEvent{Change}); }
+	for (const FLightChange& Change : Changes)
+	{
+		const FLampEvents::key_type Key = MakeKey(Change);
+		FreshLamps[Key] = Join(FreshLamps, Key, FLampEvent{Change});
+	}
 }
 
 std::vector<FRadianceEvent> FRadianceEvents::MakeLampEvents(const FRTScene& Scene, const glm::dvec3& Camera) const
 {
-	std::vector<FLampEvent> All = KeptLamps;
-	for (const FLampEvent& Event : FreshLamps) { JoinLamp(All, Event); }
+	std::vector<FLightChange> All;
+	for (const auto& [Key, Event] : FreshLamps) { All.push_back(Join(KeptLamps, Key, Event).Change); }
+	for (const auto& [Key, Event] : KeptLamps)
+	{
+		if (!FreshLamps.contains(Key)) { All.push_back(Event.Change); }
+	}
 	if (All.size() > RADIANCE_CELL_MOST_EVENTS)
 	{
-		const auto Brings = [&](const FLampEvent& Event) { return GetBrought(Event.Change, Camera); };
-		std::ranges::stable_sort(All, std::greater{}, Brings);
+		std::ranges::stable_sort(All, std::greater{}, [&](const FLightChange& Change) { return GetBrought(Change, Camera); });
 		All.resize(RADIANCE_CELL_MOST_EVENTS);
 	}
 	std::vector<FRadianceEvent> Out;
-	for (const FLampEvent& Event : All)
+	for (const FLightChange& Change : All)
 	{
-		const FLightChange& Change = Event.Change;
 		const double Radius = Change.bDirectional ? -1.0 : Change.Range > 0.0 ? Change.Range : 1.0e9;
 		Out.push_back({Scene.ToRelative(Change.Position), static_cast<float>(Radius), static_cast<float>(std::min(Change.Strength, 1.0e30)),
 		    static_cast<float>(std::min(Change.Moved, 1.0e30))});
@@ -115,9 +127,9 @@ FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, const glm::dvec3&
 	}
 	Found.Lamps = MakeLampEvents(Scene, Camera);
 	Found.bHurry = Found.Window <= float(LeastWindow);
-	for (const std::vector<FLampEvent>* Lamps : {&FreshLamps, &KeptLamps})
+	for (const FLampEvents* Lamps : {&FreshLamps, &KeptLamps})
 	{
-		for (const FLampEvent& Lamp : *Lamps) { Found.bHurry |= Lamp.Change.Part >= HurriedPart; }
+		for (const auto& [Key, Lamp] : *Lamps) { Found.bHurry |= Lamp.Change.Part >= HurriedPart; }
 	}
 	return Found;
 }
@@ -126,18 +138,20 @@ void FRadianceEvents::EndFrame(bool bSubmitted)
 {
 	if (!bSubmitted) { return; }
 	Time += Delta;
+	// A lamp that is switched off and then flickers would else count as switched off for good.
+	const double Weight = std::max(1.0 - Delta / HoldSeconds, 0.0);
 	Delta = 0.0;
-	const auto Keep = [Until = Time + HoldSeconds](auto Event) {
+	const double Until = Time + HoldSeconds;
+	for (FEvent& Event : Fresh)
+	{
 		Event.Until = Until;
-		return Event;
-	};
-	for (const FEvent& Event : Fresh) { Kept.push_back(Keep(Event)); }
-	for (const FLampEvent& Lamp : FreshLamps) { JoinLamp(KeptLamps, Keep(Lamp)); }
+		Kept.push_back(Event);
+	}
+	for (const auto& [Key, Lamp] : FreshLamps) { KeptLamps[Key] = Join(KeptLamps, Key, {Lamp.Change, Until}, Weight); }
 	Fresh.clear();
 	FreshLamps.clear();
-	const auto IsOver = [this](const auto& Event) { return Event.Until < Time; };
-	std::erase_if(Kept, IsOver);
-	std::erase_if(KeptLamps, IsOver);
+	std::erase_if(Kept, [this](const FEvent& Event) { return Event.Until < Time; });
+	std::erase_if(KeptLamps, [this](const auto& Lamp) { return Lamp.second.Until < Time; });
 	Last = Next;
 	Next = {};
 }

@@ -2,6 +2,8 @@
 // Objects that move or look otherwise are told apart (RequireMovers).
 #pragma once
 
+#include <array>
+#include <map>
 #include <vector>
 
 #include "LanternScene/Scene/Scene.h"
@@ -58,12 +60,16 @@ private:
 		FLightChange Change;
 		double Until = 0.0;
 	};
+	/// By slot and metre of the world: what a lamp leaves and where it comes to are apart.
+	using FLampEvents = std::map<std::array<int64_t, 4>, FLampEvent>;
+	/// Weight: of what Events has of the lamp.
+	static FLampEvent Join(const FLampEvents& Events, const FLampEvents::key_type& Key, const FLampEvent& Event, double Weight = 1.0);
 	void FindLampEvents(const FRTScene& Scene);
 	std::vector<FRadianceEvent> MakeLampEvents(const FRTScene& Scene, const glm::dvec3& Camera) const;
 
 	FLight Last, Next;
 	std::vector<FEvent> Kept, Fresh; ///< of frames before, and of this one
-	std::vector<FLampEvent> KeptLamps, FreshLamps;
+	FLampEvents KeptLamps, FreshLamps;
 	double Time = 0.0; ///< of the view's submitted frames, seconds
 	double Delta = 0.0;
 	uint32_t Frames = 0;

@@ -91,31 +91,42 @@ bool ReachAlike(const FSceneLight& A, const FSceneLight& B)
 	       A.OuterCone == B.OuterCone && A.bTwoSided == B.bTwoSided;
 }
 
-double GetPeakIntensity(const FSceneLight& Light)
+namespace
 {
-	const double Luminance = glm::dot(glm::dvec3(Light.Color), glm::dvec3(0.2126, 0.7152, 0.0722)), X = Light.Size.x, Y = Light.Size.y;
+double GetLuminance(const glm::vec3& Color) { return glm::dot(glm::dvec3(Color), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
+/// By which Color makes an intensity: square metres, or 1 of what has no extent.
+double GetLargestFace(const FSceneLight& Light)
+{
+	const double X = Light.Size.x, Y = Light.Size.y;
 	switch (Light.Type)
 	{
-	case LIGHT_RECTANGLE: return Luminance * X * Y;
+	case LIGHT_RECTANGLE: return X * Y;
 	case LIGHT_DISK:
-	case LIGHT_SPHERE: return Luminance * glm::pi<double>() * X * X;
-	case LIGHT_TUBE: return Luminance * (2.0 * X * Y + glm::pi<double>() * X * X);
-	default: return Luminance;
+	case LIGHT_SPHERE: return glm::pi<double>() * X * X;
+	case LIGHT_TUBE: return 2.0 * X * Y + glm::pi<double>() * X * X;
+	default: return 1.0;
 	}
 }
 
+/// Whether only colours and places differ.
+bool ShineAlike(const FSceneLight& A, const FSceneLight& B)
+{
+	return A.Type == B.Type && A.Direction == B.Direction && A.Tangent == B.Tangent && A.Range == B.Range && A.InnerCone == B.InnerCone &&
+	       A.OuterCone == B.OuterCone && A.Size == B.Size && A.bCastsShadow == B.bCastsShadow && A.bTwoSided == B.bTwoSided &&
+	       A.Profile == B.Profile && A.Channels == B.Channels;
+}
+} // namespace
+
+double GetPeakIntensity(const FSceneLight& Light) { return GetLuminance(Light.Color) * GetLargestFace(Light); }
+
 FLightChange CompareLights(uint32_t Slot, const FSceneLight& Before, const FSceneLight& After)
 {
-	const double Old = GetPeakIntensity(Before), New = GetPeakIntensity(After), Greater = std::max(Old, New);
+	const double Greater = std::max(GetPeakIntensity(Before), GetPeakIntensity(After));
 	FLightChange Change{Slot, After.Position, ReachesEverywhere(After) ? 0.0 : double(After.Range), After.Type == LIGHT_DIRECTIONAL};
-	FSceneLight Alike = Before; // but for what is told by strength and way
-	Alike.Position = After.Position;
-	Alike.Color = After.Color;
-	const glm::vec3 Difference = glm::abs(After.Color - Before.Color);
-	FSceneLight Differing = After;
-	Differing.Color = Difference;
-	Change.Strength = Alike == After ? std::min(GetPeakIntensity(Differing), Greater) : Greater;
-	Change.Moved = glm::length(After.Position - Before.Position) * Greater;
+	const double Difference = GetLuminance(glm::abs(After.Color - Before.Color)) * GetLargestFace(After);
+	Change.Strength = ShineAlike(Before, After) ? std::min(Difference, Greater) : Greater;
+	Change.Moved = Change.bDirectional ? 0.0 : glm::length(After.Position - Before.Position) * Greater;
 	Change.Part = Greater > 0.0 ? Change.Strength / Greater : 0.0;
 	return Change;
 }
