@@ -11,7 +11,7 @@ layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FMovedShareConstants Push; };
 
 const float LeastShare = 1.0e-3;
-const float LeastShining = 0.01; // times as much light as is there without what shines
+const float LeastShining = 0.01; // nits, times LeastShare: below any light that is seen
 const float MostRadiance = 65504.0; // of fp16
 
 shared uint Near[SETTLED_MOST_CASTERS / 32u]; // casters that matter to the tile
@@ -60,5 +60,6 @@ void main()
 			Moved += GetMovedShare(FMovedCasterRef(Push.Casters).Data[Word * 32u + uint(findLSB(Bits))], P, Normal);
 		}
 	}
+	Moved = mix(Moved, vec2(0.0), isnan(Moved)); // of an object whose place is no number
 	imageStore(Images[Push.Output], Pixel, vec4(min(Moved, vec2(1.0, MostRadiance)), 0.0, 0.0));
 }

@@ -27,9 +27,8 @@ vec2 GetMovedShare(FMovedCaster Mover, vec3 P, vec3 Normal)
 	// What shines takes its light along. From far away little changes.
 	float Distance = max(distance(Nearest, P), Mover.Radius);
 	float Part = Length > 0.0 ? min(2.0 * Length / Distance, 1.0) : Mover.Changed;
-	// Its light comes by other surfaces as well, whichever way this one faces: in a bright room several times as much.
-	const float Bounced = 4.0;
-	float Shone = Bounced * Part * Mover.Emission * Mover.Radius * Mover.Radius / (Distance * Distance);
+	// Its light comes by other surfaces as well, whichever way this one faces.
+	float Near = Mover.Radius / max(Distance, 1.0e-6), Shone = Part * Mover.Emission * Near * Near;
 	return vec2(2.0 * Mover.Changed * Form, Shone); // where it was, and where it is
 }
 

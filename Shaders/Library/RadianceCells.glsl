@@ -204,7 +204,7 @@ uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vo
 	return NO_RADIANCE_CELL;
 }
 
-const uint LeastCoarseCount = 8u; // a coarse cell that knows little is seen as a blotch
+const uint LeastCoarseCount = 5u; // about ten updates: a coarse cell that knows less is seen as a blotch
 
 bool IsRadianceKnown(FRadianceGrid Grid, uint Slot, uint LeastCount, inout FCellLight Light)
 {

@@ -11,8 +11,8 @@ uint GetThread() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupI
 
 uint GetSlotCount(FRadianceGrid Grid) { return (Grid.BucketMask + 1u) * RADIANCE_CELL_BUCKET; }
 
-const uint YoungBins = 9u;     // of coarse cells, and of fine ones with few updates
-const uint YoungCoarse = 32u; // updates up to which a coarse cell, which stands in for many, comes before all others
+const uint YoungBins = 6u;    // of coarse cells, and of fine ones that know little
+const uint YoungCoarse = 9u; // count, from about 30 updates, up to which a coarse cell, which stands in for many, comes first
 
 // Returns the bin of cells that have waited for so many frames.
 uint GetBinOfWait(uint Frames)

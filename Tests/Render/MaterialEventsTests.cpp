@@ -39,7 +39,7 @@ protected:
 			FMaterialData Material = Scene.GetMaterials()[Index];
 			if (Material.BaseColor.x > 0.0f) { continue; }
 			Material.Emissive = Material.LightEmissive = glm::vec3(Value);
-			Material.EmissiveWeight = Value;
+			Material.EmissiveWeight = Value / 64.0f; // as hosts do
 			Scene.SetMaterial(Index, Material);
 		}
 	}

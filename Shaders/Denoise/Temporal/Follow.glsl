@@ -9,13 +9,13 @@
 #include "Types.glsl"
 
 #if CHANNELS != 1
-// Adds the error of a history of which a share has changed, nobody knows how. What has come may be brighter than all that was there.
+// Shortens a history of which a share has changed, nobody knows how, and adds the error. What has come may be brighter than all that was there.
 void FollowShare(ivec2 Pixel, FFrameEstimate Frame, inout FHistory History)
 {
 	if (Push.ChangedShare == NO_TEXTURE) { return; }
 	vec2 Changed = texelFetch(Textures[Push.ChangedShare], Pixel, 0).xy;
 	float Error = Changed.x * max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean) + Changed.y;
-	if (Error <= 0.0) { return; }
+	if (!(Error > 0.0) || isinf(Error)) { return; }
 	float Brightness = max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean);
 	History.Past.Frames *= 1.0 - min(Error / max(Brightness, 1.0e-20), 1.0);
 	History.ResamplingVariance += Error * Error;

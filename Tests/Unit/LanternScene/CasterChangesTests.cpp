@@ -159,11 +159,11 @@ TEST_F(FCasterChangesSceneTest, TellsWhatShinesAndWhatDidSo)
 	Count();
 	Scene->SetMaterials(Object, {Glowing});
 	ASSERT_EQ(Count(), 1);
-	EXPECT_EQ(Found[0].Emission, 2.0);
+	EXPECT_EQ(Found[0].Emission, 128.0);
 	EXPECT_EQ(Found[0].Changed, 1.0);
 	Scene->SetMaterials(Other, {Material});
 	ASSERT_EQ(Count(), 2) << "as it was, and as it is";
-	EXPECT_EQ(Found[0].Emission, 2.0);
+	EXPECT_EQ(Found[0].Emission, 128.0);
 	EXPECT_EQ(Found[1].Emission, 0.0);
 	EXPECT_EQ(Found[1].Object, Other.Index);
 }

@@ -120,11 +120,25 @@ TEST(FLightChangesTest, StoresWriteWhatCameAndWent)
 	ASSERT_EQ(Changes.size(), 1u);
 	EXPECT_EQ(Changes[0].Strength, 0.0);
 	EXPECT_NEAR(Changes[0].Moved, 3.0, 1e-6) << "half a metre of 6 cd";
+	Lamp.Direction = {1, 0, 0};
+	Store.Set(Id, Lamp);
+	EXPECT_TRUE(Take().empty()) << "it shines everywhere";
 	Lamp.OuterCone = 1.0f;
 	Store.Set(Id, Lamp);
 	Changes = Take();
 	ASSERT_EQ(Changes.size(), 1u);
 	EXPECT_NEAR(Changes[0].Strength, 6.0, 1e-6) << "it may shine elsewhere";
+	Lamp.Direction = {1, 0.1f, 0};
+	Store.Set(Id, Lamp);
+	Changes = Take();
+	ASSERT_EQ(Changes.size(), 1u);
+	EXPECT_NEAR(Changes[0].Strength, 0.6, 0.01) << "a tenth of its cone";
+	Lamp.Range = 2.0f;
+	Store.Set(Id, Lamp);
+	Changes = Take();
+	ASSERT_EQ(Changes.size(), 1u);
+	EXPECT_EQ(Changes[0].Range, 5.0) << "where it reached";
+	EXPECT_EQ(Changes[0].Part, 1.0);
 	Lamp.Position.x = 9.0;
 	Store.Set(Id, Lamp);
 	Changes = Take();
@@ -135,6 +149,26 @@ TEST(FLightChangesTest, StoresWriteWhatCameAndWent)
 	Changes = Take();
 	ASSERT_EQ(Changes.size(), 1u);
 	EXPECT_EQ(Changes[0].Part, 1.0);
+}
+
+TEST(FLightChangesTest, DirectionalLightsHaveNoPlace)
+{
+	FLightStore Store;
+	FSceneLight Moon;
+	Moon.Type = LIGHT_DIRECTIONAL;
+	Moon.Color = glm::vec3(2.0f);
+	const FLightId Id = Store.Add(Moon);
+	const uint64_t Before = Store.GetStrengthChanges().GetCount();
+	Moon.Position = {100, 0, 0};
+	Store.Set(Id, Moon);
+	EXPECT_EQ(Store.GetStrengthChanges().GetCount(), Before) << "it follows the camera";
+	Moon.Direction = {0.01f, -1, 0};
+	Store.Set(Id, Moon);
+	std::vector<FLightChange> Changes;
+	ASSERT_TRUE(Store.GetStrengthChanges().GetSince(Before, Changes));
+	ASSERT_EQ(Changes.size(), 1u);
+	EXPECT_TRUE(Changes[0].bDirectional);
+	EXPECT_NEAR(Changes[0].Part, 0.57, 0.01) << "of a degree";
 }
 
 TEST(FLightChangesTest, IntensityIsThatFromFarAway)

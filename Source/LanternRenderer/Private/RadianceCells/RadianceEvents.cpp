@@ -19,7 +19,10 @@ TRTConsoleVariable<bool> CVarEvents("r.RT.Debug.GI.Events", true,
 
 constexpr double DegreesInWindow = 1.0; // that the sun may move while a cell averages
 constexpr double HurriedPart = 0.5;     // of a lamp's light that comes or goes; what flickers by less is usual
+constexpr double HurriedShare = 1.0e-3; // of what sun and sky bring to a place in the open
 constexpr double ChangeInWindow = 0.1;  // by which a strength may change meanwhile, of the greater one
+
+double GetLuminance(const glm::vec3& Color) { return glm::dot(glm::dvec3(Color), glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 double GetChange(const glm::vec3& A, const glm::vec3& B)
 {
@@ -67,6 +70,8 @@ FRadianceEvents::FLampEvent FRadianceEvents::Join(
 	Joined.Change.Strength = std::max(Weight * Before.Strength, Event.Change.Strength);
 	Joined.Change.Moved = std::max(Weight * Before.Moved, Event.Change.Moved);
 	Joined.Change.Part = std::max(Weight * Before.Part, Event.Change.Part);
+	if (Before.Range <= 0.0 || Event.Change.Range <= 0.0) { Joined.Change.Range = 0.0; }
+	else { Joined.Change.Range = std::max(Before.Range, Event.Change.Range); }
 	return Joined;
 }
 
@@ -110,7 +115,8 @@ FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, const glm::dvec3&
 {
 	const FSunLight& Sun = Scene.GetSun();
 	Next = {Scene.GetSections().GetIdentity(), glm::normalize(Sun.Direction), Sun.Color * Sun.Irradiance, Scene.GetSky(),
-	    Scene.GetLights().GetStrengthChanges().GetCount(), Scene.GetAppearanceChanges().GetEverywhere(), true};
+	    Scene.GetLights().GetStrengthChanges().GetCount(), Scene.GetAppearanceChanges().GetObjects().GetCount(),
+	    Scene.GetAppearanceChanges().GetEverywhere(), true};
 	Delta = double(DeltaSeconds);
 	Fresh.clear();
 	FreshLamps.clear();
@@ -121,15 +127,23 @@ FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, const glm::dvec3&
 	    std::max({GetChange(Last.Sun, Next.Sun), GetChange(Last.Sky, Next.Sky), Next.Surfaces - Last.Surfaces}));
 	if (Window < 1.0e9) { Fresh.push_back({.Window = static_cast<float>(std::max(Window, double(LeastWindow)))}); }
 	FindLampEvents(Scene);
+	std::vector<FCasterChange> Appearances;
+	if (!Scene.GetAppearanceChanges().GetObjects().Find(Last.Appearances, Appearances)) { Fresh.push_back({}); }
 	for (const std::vector<FEvent>* Events : {&Fresh, &Kept})
 	{
 		for (const FEvent& Event : *Events) { Found.Window = std::min(Found.Window, Event.Window); }
 	}
 	Found.Lamps = MakeLampEvents(Scene, Camera);
 	Found.bHurry = Found.Window <= float(LeastWindow);
+	// A beacon at the horizon is no reason.
+	const double Daylight = GetLuminance(Next.Sun) + glm::pi<double>() * GetLuminance(Next.Sky);
 	for (const FLampEvents* Lamps : {&FreshLamps, &KeptLamps})
 	{
-		for (const auto& [Key, Lamp] : *Lamps) { Found.bHurry |= Lamp.Change.Part >= HurriedPart; }
+		for (const auto& [Key, Lamp] : *Lamps)
+		{
+			const bool bReaches = Lamp.Change.Range <= 0.0 || glm::length(Lamp.Change.Position - Camera) < 2.0 * Lamp.Change.Range;
+			Found.bHurry |= Lamp.Change.Part >= HurriedPart && bReaches && GetBrought(Lamp.Change, Camera) > HurriedShare * Daylight;
+		}
 	}
 	return Found;
 }

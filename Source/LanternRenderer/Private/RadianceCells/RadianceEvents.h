@@ -45,8 +45,9 @@ private:
 		uint64_t Scene = 0; ///< identity
 		glm::dvec3 SunDirection{0, -1, 0};
 		glm::vec3 Sun{0}, Sky{0};
-		uint64_t Lamps = 0;    ///< place in the journal of lights
-		double Surfaces = 0.0; ///< FAppearanceChanges::GetEverywhere
+		uint64_t Lamps = 0;       ///< place in the journal of lights
+		uint64_t Appearances = 0; ///< FAppearanceChanges::GetObjects
+		double Surfaces = 0.0;    ///< FAppearanceChanges::GetEverywhere
 		bool bValid = false;
 	};
 	/// A change of all light.

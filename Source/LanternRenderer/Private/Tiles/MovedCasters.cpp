@@ -24,6 +24,7 @@ TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Shadow.KnownChanges", true,
 /// 4/π of it, here 2 % per frame, and every pixel is traced in one frame of four.
 constexpr double LittleMove = 1.0 / 64.0;
 
+constexpr double ShiningFirst = 64.0;   // times what only hides, where there is no room for all
 constexpr double MostEmission = 1.0e30; // nits, of fp32
 
 /// False: the changes are more than tiles may look at, or may be anywhere. Out is empty then, as it must be before.
@@ -33,8 +34,9 @@ bool FindFew(FRTScene& Scene, uint64_t Since, std::vector<FCasterChange>& Out)
 	return Changes.GetCount() - Since <= SETTLED_MOST_CASTERS && Changes.Find(Since, Out);
 }
 
-/// Returns one change for each object, in the order in which they were changed first.
-std::vector<FCasterChange> JoinByObject(const std::vector<FCasterChange>& Changes)
+/// Returns one change for each object, in the order in which they were changed first. bAdds: their parts add up; else the greatest
+/// counts.
+std::vector<FCasterChange> JoinByObject(const std::vector<FCasterChange>& Changes, bool bAdds)
 {
 	std::vector<FCasterChange> Joined;
 	std::unordered_map<uint32_t, size_t> Places;
@@ -50,7 +52,7 @@ std::vector<FCasterChange> JoinByObject(const std::vector<FCasterChange>& Change
 		All.To = Change.To;
 		All.Radius = std::max(All.Radius, Change.Radius);
 		All.Emission = std::max(All.Emission, Change.Emission);
-		All.Changed = std::min(All.Changed + Change.Changed, 1.0);
+		All.Changed = bAdds ? std::min(All.Changed + Change.Changed, 1.0) : std::max(All.Changed, Change.Changed);
 	}
 	return Joined;
 }
@@ -106,18 +108,23 @@ FMovedCasters::FRecent FMovedCasters::FindMovers(FRTScene& Scene, const glm::dve
 	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); }
 	FRecent Found;
 	if (Recent.empty()) { return Found; }
-	std::vector<FCasterChange> Moved;
-	Found.bAnywhere = Recent.front().Sun.Scene != Next.Sun.Scene || !Scene.GetCasterChanges().Find(Recent.front().Changes, Moved);
-	if (Found.bAnywhere) { return Found; }
-	std::vector<FCasterChange> Others;
-	Scene.GetAppearanceChanges().GetObjects().Find(Recent.front().Appearance, Others); // none if they are too many
-	std::vector<FCasterChange> Movers = JoinByObject(Moved);
-	for (const FCasterChange& Other : JoinByObject(Others)) { Movers.push_back(Other); }
+	const FState& Before = Recent.front();
+	std::vector<FCasterChange> Moved, Others;
+	if (Before.Sun.Scene != Next.Sun.Scene) { return {.bAnywhere = true}; }
+	Found.bAnywhere = !Scene.GetCasterChanges().Find(Before.Changes, Moved);
+	Scene.GetAppearanceChanges().GetObjects().Find(Before.Appearance, Others); // FRadianceEvents sees to those that are too many
+	std::vector<FCasterChange> Movers = JoinByObject(Moved, true);
+	for (FCasterChange Other : JoinByObject(Others, false))
+	{
+		Other.From = Other.To; // a way would stand for a move
+		Movers.push_back(Other);
+	}
 	if (Movers.size() > SETTLED_MOST_CASTERS)
 	{
 		const auto Hides = [&](const FCasterChange& Mover) {
 			const glm::dvec3 Away = Mover.To - Camera;
-			return Mover.Changed * Mover.Radius * Mover.Radius / std::max(glm::dot(Away, Away), Mover.Radius * Mover.Radius);
+			return (Mover.Emission > 0.0 ? ShiningFirst : 1.0) * Mover.Changed * Mover.Radius * Mover.Radius /
+			       std::max(glm::dot(Away, Away), Mover.Radius * Mover.Radius);
 		};
 		std::ranges::stable_sort(Movers, std::greater{}, Hides);
 		Movers.resize(SETTLED_MOST_CASTERS);

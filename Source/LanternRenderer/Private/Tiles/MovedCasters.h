@@ -38,7 +38,7 @@ public:
 	FRecent FindRecent(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 	/// As FindRecent, for the shadows of lamps. A lamp that has changed may have changed all.
 	FRecent FindRecentOfLamps(FRTScene& Scene, float DeltaSeconds);
-	/// Finds the objects that have moved or look otherwise, whatever has changed of lights: one caster for each, and those that hide most of what the camera
+	/// Finds the objects that have moved or look otherwise, whatever has changed of lights: one caster for each of either, and those that hide or shine most of what the camera
 	/// sees if they are more than SETTLED_MOST_CASTERS. Camera: in the world. As FindRecent.
 	FRecent FindMovers(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds);
 	/// Returns whether a lamp has changed since the view's last frame, or there is none. As Find.

@@ -109,12 +109,31 @@ double GetLargestFace(const FSceneLight& Light)
 	}
 }
 
-/// Whether only colours and places differ.
+/// Whether only colours, places, directions and ranges differ.
 bool ShineAlike(const FSceneLight& A, const FSceneLight& B)
 {
-	return A.Type == B.Type && A.Direction == B.Direction && A.Tangent == B.Tangent && A.Range == B.Range && A.InnerCone == B.InnerCone &&
-	       A.OuterCone == B.OuterCone && A.Size == B.Size && A.bCastsShadow == B.bCastsShadow && A.bTwoSided == B.bTwoSided &&
-	       A.Profile == B.Profile && A.Channels == B.Channels;
+	return A.Type == B.Type && A.InnerCone == B.InnerCone && A.OuterCone == B.OuterCone && A.Size == B.Size &&
+	       A.bCastsShadow == B.bCastsShadow && A.bTwoSided == B.bTwoSided && A.Profile == B.Profile && A.Channels == B.Channels;
+}
+
+double GetAngle(const glm::vec3& A, const glm::vec3& B)
+{
+	return std::acos(std::clamp(glm::dot(glm::normalize(glm::dvec3(A)), glm::normalize(glm::dvec3(B))), -1.0, 1.0));
+}
+
+/// Returns which part of a light comes from or goes to elsewhere because it has turned.
+double GetTurnedPart(const FSceneLight& Before, const FSceneLight& After)
+{
+	const bool bFlat = After.Type == LIGHT_RECTANGLE || After.Type == LIGHT_DISK, bDirectional = After.Type == LIGHT_DIRECTIONAL;
+	double Part = 0.0;
+	if ((bFlat || bDirectional || After.OuterCone > 0.0f || After.Profile != 0) && Before.Direction != After.Direction)
+	{
+		const double Width = bDirectional ? glm::radians(1.0) : After.OuterCone > 0.0f ? double(After.OuterCone) : 1.0;
+		Part = GetAngle(Before.Direction, After.Direction) / Width;
+	}
+	const bool bTangent = After.Type == LIGHT_RECTANGLE || After.Type == LIGHT_TUBE || After.Profile != 0;
+	if (bTangent && Before.Tangent != After.Tangent) { Part += GetAngle(Before.Tangent, After.Tangent); }
+	return std::min(Part, 1.0);
 }
 } // namespace
 
@@ -123,9 +142,15 @@ double GetPeakIntensity(const FSceneLight& Light) { return GetLuminance(Light.Co
 FLightChange CompareLights(uint32_t Slot, const FSceneLight& Before, const FSceneLight& After)
 {
 	const double Greater = std::max(GetPeakIntensity(Before), GetPeakIntensity(After));
-	FLightChange Change{Slot, After.Position, ReachesEverywhere(After) ? 0.0 : double(After.Range), After.Type == LIGHT_DIRECTIONAL};
+	FLightChange Change;
+	Change.Slot = Slot;
+	Change.bDirectional = After.Type == LIGHT_DIRECTIONAL;
+	Change.Position = Change.bDirectional ? glm::dvec3(0) : After.Position;
+	const bool bEndless = ReachesEverywhere(Before) || ReachesEverywhere(After);
+	Change.Range = bEndless ? 0.0 : double(std::max(Before.Range, After.Range));
 	const double Difference = GetLuminance(glm::abs(After.Color - Before.Color)) * GetLargestFace(After);
-	Change.Strength = ShineAlike(Before, After) ? std::min(Difference, Greater) : Greater;
+	const bool bAlike = ShineAlike(Before, After) && Before.Range == After.Range;
+	Change.Strength = bAlike ? std::min(std::max(Difference, Greater * GetTurnedPart(Before, After)), Greater) : Greater;
 	Change.Moved = Change.bDirectional ? 0.0 : glm::length(After.Position - Before.Position) * Greater;
 	Change.Part = Greater > 0.0 ? Change.Strength / Greater : 0.0;
 	return Change;

@@ -90,7 +90,9 @@ FLightId FLightStore::Add(const FSceneLight& Light)
 void FLightStore::NoteStrength(uint32_t Slot, const FSceneLight& Before, const FSceneLight& After)
 {
 	constexpr double FarAway = 1.0; // metres: it is gone from one place, and has come to another
-	if (glm::length(After.Position - Before.Position) > FarAway)
+	const bool bDirectional = After.Type == LIGHT_DIRECTIONAL;
+	const bool bOtherPlace = !bDirectional && glm::length(After.Position - Before.Position) > FarAway;
+	if (bOtherPlace || bDirectional != (Before.Type == LIGHT_DIRECTIONAL))
 	{
 		Strengths.Add(CompareLights(Slot, Before, MakeDark(Before)));
 		return Strengths.Add(CompareLights(Slot, MakeDark(After), After));

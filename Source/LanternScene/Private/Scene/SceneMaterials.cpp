@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "LanternScene/Scene/EmissiveTriangles.h"
+#include "Scene/EmissiveNits.h"
 
 namespace Lantern
 {
@@ -47,7 +48,10 @@ FAppearanceChange CompareAppearance(const FMaterialData& Old, const FMaterialDat
 {
 	const bool bShines = Old.EmissiveWeight > 0.0f || New.EmissiveWeight > 0.0f;
 	const double Emitted = GetChange(Old.LightEmissive, New.LightEmissive) + (bShines ? GetMapChange(Old, New, TEXTURE_EMISSIVE) : 0.0);
-	if (Emitted > 0.0) { return {std::min(Emitted, 1.0), double(std::max(Old.EmissiveWeight, New.EmissiveWeight))}; }
+	if (Emitted > 0.0)
+	{
+		return {std::min(Emitted, 1.0), NitsPerEmissiveWeight * double(std::max(Old.EmissiveWeight, New.EmissiveWeight))};
+	}
 	const double Reflected = GetChange(glm::vec3(Old.BaseColor), glm::vec3(New.BaseColor)) + GetMapChange(Old, New, TEXTURE_BASE_COLOR);
 	return {std::min(Reflected + std::abs(double(New.Metallic) - double(Old.Metallic)), 1.0), 0.0};
 }

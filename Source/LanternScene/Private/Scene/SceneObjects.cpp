@@ -247,19 +247,23 @@ void FSceneObjects::NoteAppearance(uint32_t Material, const FAppearanceChange& C
 	std::vector<FCasterChange> Changes;
 	for (const FMaterialUse& Use : Sections.GetUses(Material))
 	{
-		const double Emission = Change.Emission > 0.0 ? Change.Emission * Sections.GetPart(Use.Range, Use.Section) : 0.0;
+		const double Part = Change.Part * Sections.GetPart(Use.Range, Use.Section);
+		// What shines counts by what it emits. What it hides or reflects is about as it was.
+		const bool bShines = Change.Emission > 0.0;
+		const double Changed = bShines ? LittleChanged : Part, Emission = bShines ? Change.Emission * Part / LittleChanged : 0.0;
 		for (uint32_t Slot = FirstOfRange[Use.Range]; Slot != TSlots<FObject>::None; Slot = Objects[Slot].NextOfRange)
 		{
-			if (Changes.size() == FAppearanceChanges::MostObjects) { return AppearanceChanges.AddEverywhere(Change.Part); }
 			const FInstanceRecord& Record = Instances.GetRecord(Slot);
-			Changes.push_back({Record.Center, Record.Center, Record.Radius, Change.Part, Slot, Emission});
+			if ((Record.Mask & MASK_CASTERS) == 0 || !std::isfinite(Record.Radius + glm::dot(Record.Center, Record.Center))) { continue; }
+			if (Changes.size() == FAppearanceChanges::MostObjects || Record.Radius >= UnboundedRadius)
+			{
+				if (Change.Part > LittleChanged) { AppearanceChanges.AddEverywhere(Change.Part); } // what scrolls is as bright
+				return;
+			}
+			Changes.push_back({Record.Center, Record.Center, Record.Radius, Changed, Slot, Emission});
 		}
 	}
-	for (const FCasterChange& Of : Changes)
-	{
-		if (Of.Radius >= UnboundedRadius) { AppearanceChanges.AddEverywhere(Change.Part); }
-		else { AppearanceChanges.Add(Of); }
-	}
+	for (const FCasterChange& Of : Changes) { AppearanceChanges.Add(Of); }
 }
 
 void FSceneObjects::JoinGeometry(uint32_t Slot)

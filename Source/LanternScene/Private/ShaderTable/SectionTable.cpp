@@ -9,6 +9,7 @@
 
 #include "LanternScene/Opacity/OpacityClassifier.h"
 #include "Opacity/OpacityUse.h"
+#include "Scene/EmissiveNits.h"
 #include "ShaderTable/SectionData.h"
 
 namespace Lantern
@@ -215,13 +216,14 @@ double FSectionTable::GetMeanEmission(FSectionRangeId Id) const
 {
 	const FSectionRange& Range = Ranges[Id];
 	if (!Range.bEmissive) { return 0.0; }
-	double Sum = 0.0;
+	const std::vector<FRTSectionInfo>& Sections = Range.Geometry->GetInfo().Sections;
+	double Sum = 0.0, All = 0.0;
 	for (uint32_t Section = 0; Section < Range.Materials.size(); ++Section)
 	{
-		const double Weight = Context.Materials[Range.Materials[Section]].EmissiveWeight;
-		if (Weight > 0.0) { Sum += Weight * GetPart(Id, Section); }
+		Sum += double(Context.Materials[Range.Materials[Section]].EmissiveWeight) * Sections[Section].IndexCount;
+		All += Sections[Section].IndexCount;
 	}
-	return Sum;
+	return NitsPerEmissiveWeight * Sum / All;
 }
 
 void FSectionTable::GeometryChanged(const FRTGeometry& Geometry)
