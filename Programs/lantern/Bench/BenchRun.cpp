@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "JsonFile.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternRHIMock/MockDevice.h"
 
@@ -37,16 +38,24 @@ int RunBench(const std::string& File, const std::function<int(nlohmann::json& Fi
 	return Written == ExitDone ? Exit : Written;
 }
 
+namespace
+{
+/// Benchmarks are of parts. Global illumination, which the project's defaults turn on, would be beside each; --quality and --set may.
+void LeaveOutGlobalIllumination() { FConsoleVariables::Get().Set("r.RT.GI", "0", ERTSetBy::Ini, "bench"); }
+} // namespace
+
 int RunInBenchSession(const FDeviceOptions& Options, const std::function<int(FSession&)>& Body)
 {
 	FSession Session;
 	const int Opened = Session.OpenDevice(Options);
+	LeaveOutGlobalIllumination();
 	return Session.Close(Opened == ExitDone ? Body(Session) : Opened);
 }
 
 int RunOnBenchMock(const FDeviceOptions& Options, const std::function<int(IRTDevice&)>& Body)
 {
 	if (const int Status = LoadSettings(FindPluginFolders().Config, Options); Status != ExitDone) { return Status; }
+	LeaveOutGlobalIllumination();
 	TRTRef<IRTDevice> Device;
 	if (FRTStatus S = CreateBenchMock(Device); !S) { return ReportStatus(S, "--mock"); }
 	return Body(*Device);
