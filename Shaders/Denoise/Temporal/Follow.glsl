@@ -14,9 +14,8 @@ void FollowShare(ivec2 Pixel, FFrameEstimate Frame, inout FHistory History)
 {
 	if (Push.ChangedShare == NO_TEXTURE) { return; }
 	vec2 Changed = texelFetch(Textures[Push.ChangedShare], Pixel, 0).xy;
-	float Error = Changed.x * max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean) + Changed.y;
+	float Brightness = max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean), Error = Changed.x * Brightness + Changed.y;
 	if (!(Error > 0.0) || isinf(Error)) { return; }
-	float Brightness = max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean);
 	History.Past.Frames *= 1.0 - min(Error / max(Brightness, 1.0e-20), 1.0);
 	History.ResamplingVariance += Error * Error;
 }
