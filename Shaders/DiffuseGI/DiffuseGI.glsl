@@ -99,7 +99,8 @@ void DeferThread(uvec2 Thread)
 void GatherPaths(uvec2 Thread)
 {
 	FScreenProbeGrid Grid = FScreenProbeGridRef(Push.ProbeGrid).Data;
-	bool bDone = TraceProbes(FProbeTrace(Push.Pass, Grid, Push.RadianceCells, Push.Depth, Push.Normals, Push.MaxBounces), Thread);
+	bool bDone = TraceProbes(
+	    FProbeTrace(Push.Pass, Grid, Push.RadianceCells, Push.Depth, Push.Normals, Push.MaxBounces, Push.ToonPixels), Thread);
 #ifdef DEFERS_PATHS
 	if (!bDone) { DeferThread(Thread); }
 #endif
@@ -133,6 +134,7 @@ void GatherPaths(uvec2 Thread)
 #ifdef SECOND_LOBE
 		vec3 Albedo = FindSecondLobe(Push.BaseColor, Push.Material, Pixel, Point, SecondLobe, SecondShare);
 #endif
+		ChooseGatherMask(Push.ToonPixels, Pixel);
 		Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, MakeWhiteLambert(), Push.SamplesPerPixel, Push.MaxBounces,
 		                                  0x61c88647u);
 #ifdef SECOND_LOBE

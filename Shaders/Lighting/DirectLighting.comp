@@ -1,6 +1,7 @@
 // Composites the frame: direct light of the sun and of local lights, indirect light, emission, and the sky itself.
 // HAS_SUN, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_SKY: defined if the scene has such; other code is not compiled. HAS_SKY is for the ambient light of
 // the sky, which replaces indirect light that was not traced. LOCAL_EMISSIVE: emissive triangles are among local lights.
+// HAS_TOON: some objects have a style of their own in indirect light (Library/Toon.glsl).
 // HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS: see LightProfile.glsl.
 #version 460
 #include "../Shared/LightingTypes.h"
@@ -10,6 +11,9 @@
 #include "../Library/Random.glsl"
 #include "../Library/SkyLight.glsl"
 #include "../Library/Sun.glsl"
+#ifdef HAS_TOON
+#include "../Library/Toon.glsl"
+#endif
 
 layout(local_size_x = LIGHTING_GROUP_SIZE, local_size_y = LIGHTING_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FLightingConstants Push; };
@@ -95,24 +99,45 @@ vec3 GuessSurroundings(FSceneConstants Scene, vec3 SkyLight, float Visibility)
 }
 #endif
 
+#ifdef HAS_TOON
+// Returns the diffuse light of a pixel as its object's style shows it. bTraced: the signal has been graded already.
+vec3 ApplyToonStyle(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, vec3 Diffuse, float Visibility, bool bTraced)
+{
+	uint Toon = Push.ToonPixels != NO_TEXTURE ? ToonOfPixel(texelFetch(Textures[Push.ToonPixels], Pixel, 0).xy) : 0u;
+	if (Toon == 0u) { return Diffuse; }
+	FToonData Style = LoadToon(Scene, Toon);
+	if (!bTraced) { Diffuse = GradeToonLight(Style, Diffuse, View.Exposure); }
+	return Diffuse * mix(1.0, Visibility, Style.Occlusion);
+}
+#endif
+
 // Material: texel of the G-buffer; y: the material's own occlusion.
-vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf Brdf, FGBufferPoint Point, float NdotV, vec4 Material)
+vec3 ShadeIndirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FBrdf Brdf, FGBufferPoint Point, float NdotV, vec4 Material)
 {
 	vec3 Ambient = vec3(0.0), Mirrored = vec3(0.0), Surroundings = vec3(0.0);
-	float Visibility = 1.0;
+	float Visibility = Push.SkyVisibility != NO_TEXTURE ? texelFetch(Textures[Push.SkyVisibility], Pixel, 0).x : 1.0;
 #ifdef HAS_SKY
-	Ambient = SkyAmbient(Scene, Push.SkyLight, Point.BentN) * Material.y;
+	vec3 GatherN = Point.BentN;
+#ifdef HAS_TOON
+	if (Push.ToonNormals != NO_TEXTURE) { GatherN = BendNormal(OctDecode(texelFetch(Textures[Push.ToonNormals], Pixel, 0).xy), Point.V); }
+#endif
+	Ambient = SkyAmbient(Scene, Push.SkyLight, GatherN) * Material.y;
 	Mirrored = SkyAmbient(Scene, Push.SkyLight, reflect(-Point.V, Point.BentN)) * Material.y;
-	if (Push.SkyVisibility != NO_TEXTURE) { Visibility = texelFetch(Textures[Push.SkyVisibility], Pixel, 0).x; }
-	Surroundings = GuessSurroundings(Scene, SkyAmbient(Scene, Push.SkyLight, Point.BentN), Visibility) * Material.y;
+	Surroundings = GuessSurroundings(Scene, SkyAmbient(Scene, Push.SkyLight, GatherN), Visibility) * Material.y;
 #endif
 	vec3 Diffuse = mix(Surroundings, Ambient, Visibility);
+#ifdef HAS_TOON
+	float Layer = Visibility;
+#endif
 	if (Push.IndirectDiffuse != NO_TEXTURE)
 	{
 		// Where no reflection is traced, the specular lobe sees the sky as far as indirect light says that it is open, and that light elsewhere.
 		Diffuse = Surroundings = texelFetch(Textures[Push.IndirectDiffuse], Pixel, 0).rgb;
 		Visibility = MaxComponent(Mirrored) > 0.0 ? clamp(Luminance(Diffuse) / max(Luminance(Ambient), 1.0e-30), 0.0, 1.0) : 0.0;
 	}
+#ifdef HAS_TOON
+	Diffuse = ApplyToonStyle(Scene, View, Pixel, Diffuse, Layer, Push.IndirectDiffuse != NO_TEXTURE);
+#endif
 	vec4 Specular = Push.IndirectSpecular != NO_TEXTURE ? texelFetch(Textures[Push.IndirectSpecular], Pixel, 0) : vec4(0.0);
 	if (Specular.a <= 0.0)
 	{
@@ -131,7 +156,7 @@ vec3 ShadeSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, float
 	mat3 Basis = MakeBasis(Point.BentN);
 	vec3 LocalV = Point.V * Basis;
 	return texelFetch(Textures[Push.Emissive], Pixel, 0).rgb + ShadeDirect(Scene, View, Pixel, Point, Brdf, Basis, LocalV) +
-	       ShadeLocal(Pixel, Brdf, LocalV.z, Material.x) + ShadeIndirect(Scene, Pixel, Brdf, Point, LocalV.z, Material);
+	       ShadeLocal(Pixel, Brdf, LocalV.z, Material.x) + ShadeIndirect(Scene, View, Pixel, Brdf, Point, LocalV.z, Material);
 }
 
 void main()

@@ -41,6 +41,15 @@ layout(location = 1) rayPayloadEXT FShadowPayload ShadowPayload;
 #define REFLECTED_ROUGHNESS 1.0 // see EmissionOfRays, for the first lobe of a path
 #endif
 
+uint GatherMask = MASK_VISIBLE; // what the first ray of a gathered path sees. The thread sets it before, see ChooseGatherMask
+
+// ToonPixels: sampled index of what ToonSurface.comp writes; NO_TEXTURE: no object has a style.
+void ChooseGatherMask(uint ToonPixels, ivec2 Pixel)
+{
+	bool bSphere = ToonPixels != NO_TEXTURE && texelFetch(Textures[ToonPixels], Pixel, 0).x > 0.0;
+	GatherMask = bSphere ? MASK_OUTSIDE_SPHERES : MASK_VISIBLE;
+}
+
 const float Infinity = 1.0e30;
 const float RouletteThreshold = 0.25; // throughput below which Russian roulette may end a path
 
@@ -250,7 +259,7 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 #endif
 	vec3 Direction = Gathered.Direction = Basis * Sample.Direction;
 	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Gathered; }
-	FMaterialHit Hit = TraceMaterial(Scene, MASK_VISIBLE, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
+	FMaterialHit Hit = TraceMaterial(Scene, GatherMask, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 	vec3 Radiance = vec3(0.0);
 #ifdef SHARED_PATHS
 	Gathered.Share = Sample.Weight.x;

@@ -65,6 +65,7 @@ vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel,
 #ifdef SIGNAL
 	if (Depth <= 0.0) { return vec3(SkyValue()); }
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+	ChooseGatherMask(Push.ToonPixels, Pixel);
 	return TraceSignal(Scene, LoadRasterHit(Pixel, Point), RasterRayOrigin(Scene, View, Point), Point.V, Random);
 #else
 	if (Depth <= 0.0) { return ShadeMiss(Scene, CameraRay(View, vec2(Pixel) + 0.5), CameraPdf, 1.0, AllChannels); }

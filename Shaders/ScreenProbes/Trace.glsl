@@ -12,7 +12,7 @@ vec3 ClampProbeLight(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(1.0e15)), vec
 // MaxDistance: below Infinity, what is missed has no light.
 FScreenProbeRay TraceProbeRay(FSceneConstants Scene, vec3 P, vec3 Direction, float MaxDistance, uint MaxBounces, inout FRandom Random)
 {
-	FMaterialHit Hit = TraceMaterial(Scene, MASK_VISIBLE, P, Direction, MaxDistance, SHOWS_NOTHING);
+	FMaterialHit Hit = TraceMaterial(Scene, GatherMask, P, Direction, MaxDistance, SHOWS_NOTHING);
 	if (Hit.Distance < 0.0 && MaxDistance < Infinity) { return FScreenProbeRay(vec3(0.0), 0.0); }
 	if (Hit.Distance < 0.0)
 	{
@@ -53,7 +53,7 @@ struct FProbeTrace
 	FPassConstants Pass;
 	FScreenProbeGrid Grid;
 	FAddress Cells;
-	uint Depth, Normals, MaxBounces;
+	uint Depth, Normals, MaxBounces, ToonPixels;
 };
 
 // Thread: x / SCREEN_PROBE_TEXELS and y are the probe's tile.
@@ -72,6 +72,7 @@ void TraceFromProbe(FProbeTrace Trace, FViewConstants View, uvec2 Thread, out ui
 	ivec2 Pixel = ivec2(ProbePixel(Probes.Data[Probe].Pixel));
 	FGBufferPoint Point = LoadGBufferPoint(View, Trace.Normals, Pixel, LoadDepth(Trace.Depth, Pixel));
 	if (dot(Direction, Point.Ng) <= 0.0) { return; }
+	ChooseGatherMask(Trace.ToonPixels, Pixel);
 	Found = TraceProbeRay(Scene, RasterRayOrigin(Scene, View, Point), Direction, Infinity, Trace.MaxBounces, Random);
 }
 
@@ -91,6 +92,7 @@ void TraceFromPixel(FProbeTrace Trace, FViewConstants View, uint Number, out FSc
 	if (dot(Direction, Point.Ng) <= 0.0) { return; }
 	FRandom Random = MakeRandom(Pixel, View.FrameIndex, HashPcg(View.Seed + 0x78dde6e4u));
 	float Reach = Trace.Grid.NearReach * float(Trace.Grid.Spacing) * PixelHeight(View, dot(View.CameraForward, Point.Relative));
+	ChooseGatherMask(Trace.ToonPixels, ivec2(Pixel));
 	Found = TraceProbeRay(Scene, RasterRayOrigin(Scene, View, Point), Direction, Reach, Trace.MaxBounces, Random);
 }
 

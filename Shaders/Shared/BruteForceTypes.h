@@ -22,8 +22,10 @@ struct FBruteForceConstants
 	FAddress PathRecords; // see FPathGuideConstants::Records
 	FAddress ProbeGrid;   // FScreenProbeGrid, for shaders with SCREEN_PROBES
 	FAddress Shared;  // FSharedPath[] of the first launch's threads, row by row, for shaders with SHARED_PATHS
+	uint ToonPixels;  // sampled index of what ToonSurface.comp writes, or NO_TEXTURE: see ChooseGatherMask
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FBruteForceConstants, 104);
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 112);
 
 // Threads of a launch whose paths have met no radiance cell. A second launch follows them, in which neighbours do the same. The numbers of
 // the threads lie behind, row by row.

@@ -20,9 +20,10 @@ struct FLightingConstants
 	uint SkyLight;      // sampled index, see SkyAmbient in SkyLight.glsl
 	uint LightsDiffuse, LightsSpecular; // sampled indices, or NO_TEXTURE: local lights are unshadowed
 	uint Channels;      // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
+	uint ToonNormals, ToonPixels; // HAS_TOON only: sampled indices of what ToonSurface.comp writes, or NO_TEXTURE
 	uint IndirectRough; // sampled index, or NO_TEXTURE: where no reflection is traced, sky and diffuse light stand in
 };
-LANTERN_ASSERT_SIZE(FLightingConstants, 80);
+LANTERN_ASSERT_SIZE(FLightingConstants, 88);
 
 LANTERN_SHARED_END
 

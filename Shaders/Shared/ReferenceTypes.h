@@ -21,8 +21,10 @@ struct FReferenceConstants
 	float ReflectedRoughness; // rougher surfaces trace no reflections; negative: none do
 	uint Channels; // FROM_GBUFFER with HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 	uint Emissive; // sampled index, FROM_GBUFFER of the whole frame only
+	uint ToonPixels; // sampled index, FROM_GBUFFER only, or NO_TEXTURE: see ChooseGatherMask
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FReferenceConstants, 80);
+LANTERN_ASSERT_SIZE(FReferenceConstants, 88);
 
 LANTERN_SHARED_END
 

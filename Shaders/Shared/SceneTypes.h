@@ -166,6 +166,8 @@ LANTERN_ASSERT_SIZE(FObjectMotion, 72);
 #define MASK_SUN_MOVING 4u // casts from the sun and the sky, and moves
 #define MASK_CHARACTER 8u  // casts on everything but characters, from all lights
 #define MASK_LOCAL 16u     // casts from local lights
+// Rays that light a surface with a toon sphere meet objects without one alone. Objects that are visible have it, but those with a sphere.
+#define MASK_OUTSIDE_SPHERES 32u
 // Rays for shadows. Whose mask has none of these casts none.
 #define MASK_CASTERS (MASK_SUN | MASK_SUN_MOVING | MASK_CHARACTER | MASK_LOCAL)
 // Rays from a surface to a light: SunCasters and LocalCasters in Casters.glsl say what surface they leave.
@@ -244,6 +246,20 @@ struct FEmitterCluster
 };
 LANTERN_ASSERT_SIZE(FEmitterCluster, 64);
 
+// How indirect light falls on an object of a stylised look: FToonStyle.
+struct FToonData
+{
+	vec3 Center;
+	uint Object; // into FObjectData[]
+	float SphereWeight;
+	float Bend;
+	float MaxSaturation;
+	float MaxValue;
+	float Occlusion;
+	vec3 Tint;
+};
+LANTERN_ASSERT_SIZE(FToonData, 48);
+
 #define SKY_MAP_CUBE 0u
 #define SKY_MAP_OCTAHEDRAL 1u
 
@@ -282,10 +298,13 @@ struct FSceneConstants
 	FAddress ObjectChannels;  // uint[]: channels of each object, exclusive-or CHANNELS_DEFAULT; 0: all have these
 	FAddress LightProfiles;   // FLightProfile[], by number - 1
 	FAddress ProfileTexels;   // uint[]
+	FAddress ToonStyles;      // FToonData[]; 0: no object has a style
+	FAddress ObjectToons;     // uint[]: for each object, its style's place + 1; 0: it has none
+	FAddress ToonNumbers;     // uint[256]: the same for an engine's numbers; 0: no style has a number
 	uint SunChannels;         // 8 bits, as those of FLightData
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 272);
+LANTERN_ASSERT_SIZE(FSceneConstants, 296);
 
 // A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
 // Positions are relative to the scene's origin.

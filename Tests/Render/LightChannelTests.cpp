@@ -58,6 +58,13 @@ protected:
 		EXPECT_EQ(IsLit(RenderLighting(View)), bExpected) << What << ", lighting";
 		EXPECT_EQ(IsLit(RenderSignal(ESignal::LocalDiffuse, View)), bExpected) << What << ", signal";
 		EXPECT_EQ(IsLit(TraceSignal(ESignal::LocalDiffuse, View, 4, 1)), bExpected) << What << ", the signal's reference";
+		FReferenceSettings Raster;
+		Raster.View = View;
+		Raster.Signal = ESignal::LocalDiffuse;
+		Raster.Samples = 4;
+		Raster.Bounces = 1;
+		Raster.bPixelCenters = Raster.bRasterSurfaces = true;
+		EXPECT_EQ(IsLit(TraceReference(Raster)), bExpected) << What << ", the signal's reference at surfaces of the raster";
 	}
 
 	std::vector<FLightId> Lamps;

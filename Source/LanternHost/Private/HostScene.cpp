@@ -163,6 +163,7 @@ FRTStatus FHostScene::CreateObjects(FUploader& Uploader)
 		Info.Mask = MakeObjectMask(Traits);
 		Info.bCharacter = Traits.bCharacter;
 		Info.Channels = Traits.Channels;
+		if (const auto& Toon = Description.Nodes[Node].Toon) { Info.Toon = std::make_shared<const FToonStyle>(*Toon); }
 		Instance.Object = Scene.AddObject(Info);
 		AddDraw(Instance, Info);
 		Instances.push_back(std::move(Instance));

@@ -48,7 +48,11 @@ private:
 	FRTStatus CreateBuffers();
 	FRTStatus LoadState(uint32_t& OutSamples);
 	FRTStatus SaveState(uint32_t Samples);
+	/// Runs a frame of the reference: calls Add with the context and what it works on.
+	template <class FAdd>
+	FRTStatus RunFrame(FAdd&& Add);
 	FRTStatus Trace(uint32_t FirstSample, uint32_t SampleCount, uint32_t FirstRow, uint32_t RowCount);
+	FRTStatus Grade();
 	FRTStatus Copy(IRTBuffer& Dest, IRTBuffer& Source);
 	FStateHeader MakeHeader(uint32_t Samples) const;
 	void Adapt(double Seconds);
@@ -147,7 +151,8 @@ FRTStatus FReferenceJob::Copy(IRTBuffer& Dest, IRTBuffer& Source)
 	return Device.WaitFor(Fence, 600'000'000'000ull);
 }
 
-FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint32_t FirstRow, uint32_t RowCount)
+template <class FAdd>
+FRTStatus FReferenceJob::RunFrame(FAdd&& Add)
 {
 	FConsoleVariables::Get().BeginFrame();
 	FRenderer& Renderer = Engine.GetRenderer();
@@ -160,16 +165,36 @@ FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint3
 	FFrameContext& Context = Renderer.GetContext();
 	FReferencePassInputs Inputs;
 	Inputs.Sum = Context.Graph.ImportBuffer(Sum.Get(), ERTAccess::StorageWrite, ERTAccess::StorageWrite, "ReferenceSum");
-	Inputs.FirstSample = FirstSample;
-	Inputs.SampleCount = SampleCount;
-	Inputs.MaxBounces = Settings.Bounces;
-	Inputs.FirstRow = FirstRow;
-	Inputs.RowCount = RowCount;
-	Inputs.bPixelCenters = Settings.bPixelCenters;
+	Inputs.Signal = Settings.Signal;
 	if (Features.bReferenceFromGBuffer) { Inputs.GBuffer = Engine.AddGBuffer(Context); }
-	AddReferencePass(Context, Inputs);
+	Add(Context, Inputs);
 	if (FRTStatus S = Renderer.EndFrame(nullptr); !S) { return S; }
 	return Renderer.WaitForAll();
+}
+
+FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint32_t FirstRow, uint32_t RowCount)
+{
+	return RunFrame([&](FFrameContext& Context, FReferencePassInputs& Inputs) {
+		Inputs.FirstSample = FirstSample;
+		Inputs.SampleCount = SampleCount;
+		Inputs.MaxBounces = Settings.Bounces;
+		Inputs.FirstRow = FirstRow;
+		Inputs.RowCount = RowCount;
+		Inputs.bPixelCenters = Settings.bPixelCenters;
+		AddReferencePass(Context, Inputs);
+	});
+}
+
+/// After the state is saved, whose sum more samples may join.
+FRTStatus FReferenceJob::Grade()
+{
+	if (!Settings.bRasterSurfaces || !IsReferenceGraded(Engine.GetScene().GetScene().GetFacts(), Settings.Signal))
+	{
+		return FRTStatus::Success();
+	}
+	const FRTStatus Status =
+	    RunFrame([](FFrameContext& Context, const FReferencePassInputs& Inputs) { AddReferenceGrade(Context, Inputs); });
+	return Status ? Copy(*Staging, *Sum) : Status;
 }
 
 void FReferenceJob::Adapt(double Seconds)
@@ -221,6 +246,7 @@ FRTStatus FReferenceJob::Run(FReferenceResult& Out)
 		}
 	}
 	if (FRTStatus S = SaveState(Done); !S) { return S; }
+	if (FRTStatus S = Grade(); !S) { return S; }
 	Out.Samples = Done;
 	Out.Seconds = SecondsSince(Start);
 	Out.Paths = uint64_t(Done - First) * Height * Settings.View.Width;

@@ -140,6 +140,13 @@ public:
 			Hash.Add(MakeObjectMask(V.Traits) | (V.Traits.bCharacter ? 256u : 0u) | (uint32_t(V.Traits.Channels ^ CHANNELS_DEFAULT) << 9));
 		}
 		AddPlain(V.Materials);
+		if (V.Toon) { AddToon(*V.Toon); }
+	}
+	void AddToon(const FToonStyle& V)
+	{
+		AddFloats(V.Center);
+		AddFloats(V.Tint);
+		AddAll(V.SphereWeight, V.Bend, V.MaxSaturation, V.MaxValue, V.Occlusion, V.Number);
 	}
 	void Add(const FHostSkin& V)
 	{

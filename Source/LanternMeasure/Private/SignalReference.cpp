@@ -64,6 +64,13 @@ void AddMaterials(FContentHasher& Hash, const FRTScene& Scene, const FMaterialPr
 	}
 }
 
+void AddToon(FContentHasher& Hash, const FToonStyle& Style)
+{
+	AddVector(Hash, Style.Center);
+	AddVector(Hash, Style.Tint);
+	for (const float Value : {Style.SphereWeight, Style.Bend, Style.MaxSaturation, Style.MaxValue}) { Hash.Add(Value); }
+}
+
 void AddObjects(FContentHasher& Hash, const FRTScene& Scene)
 {
 	for (uint32_t Slot = 0; Slot < Scene.GetObjectSlotCount(); ++Slot)
@@ -75,6 +82,7 @@ void AddObjects(FContentHasher& Hash, const FRTScene& Scene)
 		Hash.AddBytes(Object->Materials.data(), Object->Materials.size() * sizeof(uint32_t));
 		Hash.Add(Object->Mask);
 		Hash.AddText(Object->Geometry->GetInfo().Name);
+		if (Object->Toon) { AddToon(Hash, *Object->Toon); }
 	}
 }
 
@@ -139,6 +147,7 @@ FContentHash MakeKey(FSampleEngine& Engine, const FSignalReferenceDesc& Desc)
 	Hash.AddText(Engine.GetRenderer().GetRayShaderKey(Scene, Features));
 	if (Features.bReferenceFromGBuffer)
 	{
+		if (IsReferenceGraded(Scene.GetFacts(), Desc.Signal)) { Hash.Add(Desc.View.Exposure); }
 		FShaderCompiler& Compiler = Engine.GetRenderer().GetCompiler();
 		Hash.AddText(Compiler.GetKey({"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}}));
 		Hash.AddText(Compiler.GetKey({"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}}));

@@ -186,6 +186,34 @@ FRTStatus CheckLight(const FRTModuleLight& Light)
 	return CheckLightSize(Light);
 }
 
+FRTStatus CheckToon(const FRTModuleToon* Toon)
+{
+	if (Toon == nullptr) { return FRTStatus::Success(); }
+	if (!std::all_of(Toon->Center, Toon->Center + 3, [](float V) { return std::isfinite(V); }))
+	{
+		return Refuse("FRTModuleToon::Center must be finite");
+	}
+	if (!(Toon->MaxValue >= 0.0f) || !std::isfinite(Toon->MaxValue))
+	{
+		return Refuse("FRTModuleToon::MaxValue must be finite and not negative");
+	}
+	const std::pair<float, const char*> Shares[] = {
+	    {Toon->SphereWeight, "SphereWeight"}, {Toon->Bend, "Bend"}, {Toon->MaxSaturation, "MaxSaturation"}, {Toon->Occlusion, "Occlusion"}};
+	for (const auto& [Value, Name] : Shares)
+	{
+		if (!(Value >= 0.0f && Value <= 1.0f))
+		{
+			return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleToon::%s must lie between 0 and 1, is %g", Name, double(Value));
+		}
+	}
+	const bool bColor = std::all_of(Toon->Tint, Toon->Tint + 3, [](float C) { return C >= 0.0f && std::isfinite(C); });
+	if (!bColor || Toon->Tint[0] + Toon->Tint[1] + Toon->Tint[2] <= 0.0f)
+	{
+		return Refuse("FRTModuleToon::Tint must be finite, not negative and not black");
+	}
+	return FRTStatus::Success();
+}
+
 FRTStatus CheckTransform(const double Transform[12])
 {
 	return Transform != nullptr && AreFinite(Transform, 12) ? FRTStatus::Success() : Refuse("an object's transform is null or not finite");

@@ -16,6 +16,8 @@ FRTStatus CheckLight(const FRTModuleLight& Light);
 bool HasCone(const FRTModuleLight& Light);
 bool NeedsDirection(const FRTModuleLight& Light);
 bool NeedsTangent(const FRTModuleLight& Light);
+/// Null is fine.
+FRTStatus CheckToon(const FRTModuleToon* Toon);
 FRTStatus CheckTransform(const double Transform[12]);
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material);
 

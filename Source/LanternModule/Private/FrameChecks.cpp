@@ -217,7 +217,10 @@ FRTStatus CheckGBuffer(const FRTModuleFrame& Frame)
 	const FRTTextureDesc& Depth = Frame.Depth->GetDesc();
 	Status = CheckTexture({Frame.Classes, Frame.ClassesAccess, {ERTFormat::R8_UNORM}, "classes", "R8_UNORM", "ClassesAccess"}, Depth);
 	if (!Status) { return Status; }
-	return CheckTexture({Frame.Channels, Frame.ChannelsAccess, {ERTFormat::R8_UNORM}, "channels", "R8_UNORM", "ChannelsAccess"}, Depth);
+	Status = CheckTexture({Frame.Channels, Frame.ChannelsAccess, {ERTFormat::R8_UNORM}, "channels", "R8_UNORM", "ChannelsAccess"}, Depth);
+	if (!Status) { return Status; }
+	return CheckTexture(
+	    {Frame.ToonNumbers, Frame.ToonNumbersAccess, {ERTFormat::R8_UNORM}, "toon numbers", "R8_UNORM", "ToonNumbersAccess"}, Depth);
 }
 
 /// What does not say whose it is passes.
@@ -233,7 +236,7 @@ FRTStatus CheckOwners(const FRTModuleFrame& Frame, const IRTDevice& Device)
 	FRTStatus Status = Check(Frame.Commands, "Commands");
 	const std::pair<const IRTTexture*, const char*> Textures[] = {{Frame.Depth, "Depth"}, {Frame.Normals, "Normals"},
 	    {Frame.GeometricNormals, "GeometricNormals"}, {Frame.Motion, "Motion"}, {Frame.BaseColor, "BaseColor"},
-	    {Frame.Material, "Material"}, {Frame.Classes, "Classes"}, {Frame.Channels, "Channels"}};
+	    {Frame.Material, "Material"}, {Frame.Classes, "Classes"}, {Frame.Channels, "Channels"}, {Frame.ToonNumbers, "ToonNumbers"}};
 	for (const auto& [Texture, Name] : Textures) { Status = Status ? Check(Texture, Name) : Status; }
 	return Status;
 }

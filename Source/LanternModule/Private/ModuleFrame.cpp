@@ -177,6 +177,7 @@ FRTStatus FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameVi
 	FGBuffer GBuffer = AddHostSurfacePass(Context, Surface);
 	GBuffer.Classes = ImportTexture(Context.Graph, Frame.Classes, Frame.ClassesAccess, "EngineClasses");
 	GBuffer.Channels = ImportTexture(Context.Graph, Frame.Channels, Frame.ChannelsAccess, "EngineChannels");
+	GBuffer.ToonNumbers = ImportTexture(Context.Graph, Frame.ToonNumbers, Frame.ToonNumbersAccess, "EngineToonNumbers");
 	GBuffer.ClassesOffset = {Frame.OffsetX, Frame.OffsetY};
 	if (Frame.HostShadow != nullptr) { Context.HostShadow = ImportHostShadow(Context.Graph, *Frame.HostShadow, World); }
 	if (!GBuffer.Depth.IsValid()) { return FRTStatus::Success(); } // shaders are missing: there is nothing to trace from

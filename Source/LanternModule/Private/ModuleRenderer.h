@@ -74,6 +74,7 @@ public:
 		return Calls.SetObjectCastsShadow(Handle, bCastsShadow);
 	}
 	FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible) override { return Calls.SetObjectVisible(Handle, bVisible); }
+	FRTStatus SetObjectToon(ERTObjectHandle Handle, const FRTModuleToon* Toon) override { return Calls.SetObjectToon(Handle, Toon); }
 	FRTStatus SetObjectChannels(ERTObjectHandle Handle, uint8_t Channels) override { return Calls.SetObjectChannels(Handle, Channels); }
 	FRTStatus AddLight(const FRTModuleLight& Light, ERTLightHandle* Out) override { return Calls.AddLight(Light, Out); }
 	FRTStatus SetLight(ERTLightHandle Handle, const FRTModuleLight& Light) override { return Calls.SetLight(Handle, Light); }

@@ -150,6 +150,25 @@ bool FSceneCalls::Take(uint32_t MostArrivals, std::vector<FSceneCommand>& Out)
 
 // ---------------------------------------------------------------------------------------------------- objects
 
+namespace
+{
+/// Toon: null, or checked.
+std::shared_ptr<const FToonStyle> ToToonStyle(const FRTModuleToon* Toon)
+{
+	if (Toon == nullptr) { return nullptr; }
+	FToonStyle Style;
+	Style.Center = {Toon->Center[0], Toon->Center[1], Toon->Center[2]};
+	Style.SphereWeight = Toon->SphereWeight;
+	Style.Bend = Toon->Bend;
+	Style.MaxSaturation = Toon->MaxSaturation;
+	Style.MaxValue = Toon->MaxValue;
+	Style.Occlusion = Toon->Occlusion;
+	Style.Tint = {Toon->Tint[0], Toon->Tint[1], Toon->Tint[2]};
+	Style.Number = Toon->Number;
+	return std::make_shared<const FToonStyle>(Style);
+}
+} // namespace
+
 FRTStatus FSceneCalls::CheckObject(const FRTModuleObject& Object)
 {
 	const FMesh* const Mesh = Meshes.Find(Object.Mesh);
@@ -158,6 +177,7 @@ FRTStatus FSceneCalls::CheckObject(const FRTModuleObject& Object)
 	{
 		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleObject::Mobility is none");
 	}
+	if (const FRTStatus Status = CheckToon(Object.Toon); !Status) { return Status; }
 	const FRTStatus Status = CheckTransform(Object.Transform);
 	return Status ? CheckMaterials(*Mesh, Object.Materials, Object.MaterialCount) : Status;
 }
@@ -169,6 +189,7 @@ ERTObjectHandle FSceneCalls::AddOne(const FRTModuleObject& Object)
 	Added.Materials.assign(Object.Materials, Object.Materials + Object.MaterialCount);
 	Added.Traits = {Object.bVisible, Object.bCastsShadow, Object.bCastsLocalShadow, Object.Mobility == ERTModuleMobility::Movable,
 	    Object.bCharacter, Object.Channels};
+	Added.Toon = ToToonStyle(Object.Toon);
 	Added.Mobility = Object.Mobility;
 	AddUsers(Added);
 	++Meshes.Find(Object.Mesh)->Users;
@@ -179,6 +200,7 @@ ERTObjectHandle FSceneCalls::AddOne(const FRTModuleObject& Object)
 	Command.Mask = MakeObjectMask(Added.Traits);
 	Command.bCharacter = Added.Traits.bCharacter;
 	Command.Channels = Added.Traits.Channels;
+	Command.Toon = Added.Toon;
 	Command.Transform = World.ToTransform(Object.Transform);
 	const ERTObjectHandle Handle = Objects.Add(std::move(Added));
 	Command.Slot = Objects.GetSlot(Handle);
@@ -269,6 +291,18 @@ FRTStatus FSceneCalls::SetObjectChannels(ERTObjectHandle Handle, uint8_t Channel
 	Object->Traits.Channels = Channels;
 	AddUpdate(FChannelsCommand{Objects.GetSlot(Handle), Channels}, 0, Object->Ticket);
 	return FRTStatus::Success();
+}
+
+FRTStatus FSceneCalls::SetObjectToon(ERTObjectHandle Handle, const FRTModuleToon* Toon)
+{
+	const FRTStatus Status = CheckToon(Toon);
+	std::lock_guard Lock(Mutex);
+	FObject* const Object = Objects.Find(Handle);
+	if (Object == nullptr) { return RefuseHandle("SetObjectToon", "object"); }
+	if (!Status) { return Status; }
+	Object->Toon = ToToonStyle(Toon);
+	AddUpdate(FToonCommand{Objects.GetSlot(Handle), Object->Toon}, 0, Object->Ticket);
+	return Status;
 }
 
 FRTStatus FSceneCalls::RemoveObject(ERTObjectHandle Handle)

@@ -49,6 +49,7 @@ public:
 	FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow);
 	FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible);
 	FRTStatus SetObjectChannels(ERTObjectHandle Handle, uint8_t Channels);
+	FRTStatus SetObjectToon(ERTObjectHandle Handle, const FRTModuleToon* Toon);
 	FRTStatus RemoveObject(ERTObjectHandle Handle);
 	FRTStatus AddLight(const FRTModuleLight& Light, ERTLightHandle* Out);
 	FRTStatus SetLight(ERTLightHandle Handle, const FRTModuleLight& Light);
@@ -96,6 +97,7 @@ private:
 		ERTMeshHandle Mesh = ERTMeshHandle::None;
 		std::vector<ERTMaterialHandle> Materials;
 		FRTObjectTraits Traits;
+		std::shared_ptr<const FToonStyle> Toon;
 		ERTModuleMobility Mobility = ERTModuleMobility::Movable;
 		FTicket Ticket = 0;
 	};

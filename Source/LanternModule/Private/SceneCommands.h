@@ -49,6 +49,7 @@ struct FAddObjectCommand
 	uint8_t Mask = MaskDefault;
 	bool bCharacter = false;
 	uint8_t Channels = CHANNELS_DEFAULT;
+	std::shared_ptr<const FToonStyle> Toon;
 	std::vector<uint32_t> Materials;
 	glm::dmat4 Transform{1.0};
 };
@@ -70,6 +71,11 @@ struct FChannelsCommand
 {
 	uint32_t Slot = 0;
 	uint8_t Channels = CHANNELS_DEFAULT;
+};
+struct FToonCommand
+{
+	uint32_t Slot = 0;
+	std::shared_ptr<const FToonStyle> Style; ///< null: none
 };
 struct FObjectMaterialsCommand
 {
@@ -117,7 +123,7 @@ struct FLightCommand
 };
 
 using FSceneCommand = std::variant<FMaterialCommand, FAddMeshCommand, FRemoveMeshCommand, FAddObjectCommand, FRemoveObjectCommand,
-    FTransformCommand, FMaskCommand, FChannelsCommand, FObjectMaterialsCommand, FObjectMeshCommand, FVerticesCommand, FDeformedCommand,
-    FProfileCommand, FLightCommand, FSunLight, FSkyCommand, FSkyMapCommand>;
+    FTransformCommand, FMaskCommand, FChannelsCommand, FToonCommand, FObjectMaterialsCommand, FObjectMeshCommand, FVerticesCommand,
+    FDeformedCommand, FProfileCommand, FLightCommand, FSunLight, FSkyCommand, FSkyMapCommand>;
 
 } // namespace Lantern

@@ -113,6 +113,7 @@ void FSceneState::Do(FAddObjectCommand& Command)
 	Info.Mask = Command.Mask;
 	Info.bCharacter = Command.bCharacter;
 	Info.Channels = Command.Channels;
+	Info.Toon = Command.Toon;
 	Id = Scene.AddObject(std::move(Info));
 }
 
@@ -139,6 +140,12 @@ void FSceneState::Do(FChannelsCommand& Command)
 {
 	const FRTObjectId Id = Objects[Command.Slot];
 	if (Id.IsValid()) { Scene.SetChannels(Id, Command.Channels); }
+}
+
+void FSceneState::Do(FToonCommand& Command)
+{
+	const FRTObjectId Id = Objects[Command.Slot];
+	if (Id.IsValid()) { Scene.SetToon(Id, std::move(Command.Style)); }
 }
 
 void FSceneState::Do(FObjectMaterialsCommand& Command)

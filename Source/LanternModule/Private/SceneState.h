@@ -55,6 +55,7 @@ private:
 	void Do(FTransformCommand& Command);
 	void Do(FMaskCommand& Command);
 	void Do(FChannelsCommand& Command);
+	void Do(FToonCommand& Command);
 	void Do(FObjectMaterialsCommand& Command);
 	void Do(FObjectMeshCommand& Command);
 	void Do(FVerticesCommand& Command);

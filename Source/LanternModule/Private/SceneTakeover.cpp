@@ -33,8 +33,9 @@ std::optional<T> FindSlot(const std::vector<std::optional<T>>& Values, uint32_t 
 template <class T>
 constexpr bool HasNoValue =
     std::is_same_v<T, FAddMeshCommand> || std::is_same_v<T, FRemoveMeshCommand> || std::is_same_v<T, FRemoveObjectCommand> ||
-    std::is_same_v<T, FMaskCommand> || std::is_same_v<T, FChannelsCommand> || std::is_same_v<T, FProfileCommand> ||
-    std::is_same_v<T, FObjectMaterialsCommand> || std::is_same_v<T, FVerticesCommand> || std::is_same_v<T, FDeformedCommand>;
+    std::is_same_v<T, FMaskCommand> || std::is_same_v<T, FChannelsCommand> || std::is_same_v<T, FToonCommand> ||
+    std::is_same_v<T, FProfileCommand> || std::is_same_v<T, FObjectMaterialsCommand> || std::is_same_v<T, FVerticesCommand> ||
+    std::is_same_v<T, FDeformedCommand>;
 
 struct FFollower
 {
@@ -142,6 +143,7 @@ void FSceneCalls::AddAll(const FSceneValues& Values)
 		Command.Mask = MakeObjectMask(Object.Traits);
 		Command.bCharacter = Object.Traits.bCharacter;
 		Command.Channels = Object.Traits.Channels;
+		Command.Toon = Object.Toon;
 		// An object whose mesh could not be made was never placed, and stays unseen.
 		const std::optional<glm::dmat4> Transform = FindSlot(Values.Transforms, Command.Slot);
 		Command.Mesh = Transform ? Meshes.GetSlot(Object.Mesh) : ~0u;

@@ -158,10 +158,15 @@ FRayPrograms ChooseRayPrograms(
 		Collector.Add(ESignal::Frame,
 		    ChooseReferenceRays(Capabilities, Scene.GetFacts(), Features.ReferenceSignal, Features.bReferenceFromGBuffer),
 		    GetReferencePath(Features.ReferenceSignal));
+		if (Features.bReferenceFromGBuffer)
+		{
+			ListReferenceShaders(Scene.GetFacts(), Features.ReferenceSignal, Programs.Compute);
+			Programs.bMotion = Scene.GetFacts().bLightChannels || Scene.GetFacts().bToon; // it names the pixels' objects
+		}
 	}
 	else
 	{
-		Programs.bMotion = Requests.bMotion || Scene.GetFacts().bLightChannels; // it names the pixels' objects
+		Programs.bMotion = Requests.bMotion || Scene.GetFacts().bLightChannels || Scene.GetFacts().bToon; // it names the pixels' objects
 		if (Scene.GetFacts().bLightChannels) { Programs.Compute.push_back(MakePixelChannelsSource()); }
 		const FSceneFacts Facts = AddFrameFacts(Scene.GetFacts(), Features, Requests);
 		CollectSignals(Collector, Capabilities, Scene, Facts, Requests, Ready);

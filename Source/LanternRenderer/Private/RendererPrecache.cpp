@@ -11,6 +11,7 @@
 #include "RayPrograms.h"
 #include "Sky/SkyLight.h"
 #include "ToneMap/ToneMap.h"
+#include "Toon/Toon.h"
 
 namespace Lantern
 {
@@ -22,6 +23,7 @@ void ListCompositeShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 {
 	Out.push_back(MakeLightingSource(Facts));
 	ListLightCellShaders(Facts, Out);
+	ListToonShaders(Facts, false, Out);
 	if (HasHeightFog()) { Out.push_back(MakeHeightFogSource(Facts)); }
 	Out.push_back(MakeToneMapSource());
 	if (Facts.bSkyMap && HasSkyAmbient(Facts)) { Out.push_back(MakeSkyLightSource()); }

@@ -39,6 +39,8 @@ constexpr FSignalPass Passes[] = {
         .WantsMotion = IsDiffuseGIFiltered,
         .ListFilters = ListDiffuseGIFilters,
         .EmissionIn = ESignal::LocalDiffuse,
+        .bStyled = true,
+        .bToonGraded = true,
         .Pictures = RadianceCellPictures},
     {.Signal = ESignal::Reflections, .ChooseRays = ChooseReflectionsRays, .Add = AddReflectionsPass, .EmissionIn = ESignal::LocalSpecular},
     {.Signal = ESignal::LocalDiffuse,
@@ -63,7 +65,8 @@ constexpr FSignalPass Passes[] = {
         .WantsMotion = IsDiffuseGIFiltered,
         .ListFilters = ListDiffuseGIFilters,
         .RaysOf = ESignal::DiffuseGI,
-        .EmissionIn = ESignal::LocalSpecular},
+        .EmissionIn = ESignal::LocalSpecular,
+        .bStyled = true},
 };
 static_assert(std::size(Passes) == SignalCount - 1, "each signal but Frame needs a row, in the order of ESignal");
 } // namespace

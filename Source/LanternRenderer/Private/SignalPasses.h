@@ -29,6 +29,10 @@ struct FSignalPass
 	bool (*AskShadowRays)(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut) = nullptr;
 	/// The signal holds what is not in the light mask, if a frame has one. The first such row asks for the rays of the mask.
 	bool bBesideLightMask = false;
+	/// Its surfaces are those of RequireToonSurface (Toon/Toon.h).
+	bool bStyled = false;
+	/// It shows what AddToonGrade makes of its light.
+	bool bToonGraded = false;
 	/// Fills what the signal's reference reads of the constants beside the rest. Null: nothing.
 	void (*SetReferenceConstants)(FReferenceConstants& Constants) = nullptr;
 	/// Names of pictures that the pass draws of how it works, for r.RT.Debug.View, with a null behind the last one. Null: none.

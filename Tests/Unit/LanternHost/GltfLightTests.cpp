@@ -92,5 +92,37 @@ TEST(GltfNodes, ExtrasSayWhatANodeShadows)
 	EXPECT_EQ(Result.Scene->Nodes[1].Traits, FRTObjectTraits());
 }
 
+TEST(GltfNodes, ExtrasGiveANodeAStyle)
+{
+	FGltfMaker Maker;
+	Maker.AddTriangle();
+	const auto Give = [&](const nlohmann::json& Toon) {
+		Maker.Json["nodes"][0]["extras"]["lantern"] = {{"toon", Toon}};
+		return Maker.Load();
+	};
+	const FLoadResult Result = Give({{"center", {0, 1.5, 0.25}}, {"sphereWeight", 1}, {"bend", 0.25}, {"maxSaturation", 0.75},
+	    {"maxValue", 2}, {"occlusion", 0.5}, {"tint", {1, 0.5, 0.25}}});
+	ASSERT_TRUE(Result.Scene) << Result.Error;
+	const FToonStyle Expected{.Center = {0, 1.5f, 0.25f},
+	    .SphereWeight = 1,
+	    .Bend = 0.25f,
+	    .MaxSaturation = 0.75f,
+	    .MaxValue = 2,
+	    .Occlusion = 0.5f,
+	    .Tint = {1, 0.5f, 0.25f}};
+	EXPECT_EQ(Result.Scene->Nodes[0].Toon, Expected);
+	EXPECT_EQ(Give(nlohmann::json::object()).Scene->Nodes[0].Toon, FToonStyle());
+	const std::pair<nlohmann::json, const char*> Bad[] = {{{{"bend", 1.5}}, "bend is 1.5, expected a number from 0 to 1"},
+	    {{{"maxValue", -1}}, "maxValue is -1"}, {{{"tint", {0, 0, 0}}}, "tint is black"}, {{{"center", {1, 2}}}, "center"}};
+	for (const auto& [Toon, Says] : Bad)
+	{
+		const std::string Error = Give(Toon).Error;
+		EXPECT_NE(Error.find(Says), std::string::npos) << Error;
+		EXPECT_NE(Error.find("nodes[0]"), std::string::npos) << Error;
+	}
+	Maker.Json["nodes"][0].erase("extras");
+	EXPECT_EQ(Maker.Load().Scene->Nodes[0].Toon, std::nullopt);
+}
+
 } // namespace
 } // namespace Lantern

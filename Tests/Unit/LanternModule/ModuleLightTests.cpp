@@ -160,6 +160,67 @@ TEST_F(FModuleLightTest, ChannelsReachTheScene)
 	EXPECT_REFUSED(Renderer->SetObjectChannels(Thing, 1), "no such object");
 }
 
+// Styles of objects, as shaders see them: by object, and by the engine's numbers. None costs no table.
+TEST_F(FModuleLightTest, ToonStylesReachTheScene)
+{
+	ERTObjectHandle Thing = ERTObjectHandle::None;
+	FRTModuleObject Placed;
+	Placed.Mesh = AddOpaqueMesh();
+	Placed.Materials = &Solid;
+	Placed.MaterialCount = 1;
+	ASSERT_OK(Renderer->AddObject(Placed, &Thing));
+	EXPECT_EQ(ReadConstants(DescribeFrame()).ToonStyles, 0u);
+	FRTModuleToon Toon;
+	Toon.Center[1] = 150.0f;
+	Toon.SphereWeight = 1.0f;
+	Toon.Tint[2] = 0.5f;
+	Toon.Number = 7;
+	ASSERT_OK(Renderer->SetObjectToon(Thing, &Toon));
+	const FSceneConstants Constants = ReadConstants(DescribeFrame());
+	ASSERT_NE(Constants.ToonStyles, 0u);
+	const FToonData Data = ReadEntry<FToonData>(Constants.ToonStyles, 0);
+	EXPECT_EQ(Data.Center, glm::vec3(0, 150, 0)) << "the mesh's space is the engine's";
+	EXPECT_EQ(Data.SphereWeight, 1.0f);
+	EXPECT_EQ(Data.Bend, Toon.Bend);
+	EXPECT_EQ(Data.MaxSaturation, Toon.MaxSaturation);
+	EXPECT_EQ(Data.MaxValue, Toon.MaxValue);
+	EXPECT_EQ(Data.Tint, glm::vec3(1, 1, 0.5f));
+	EXPECT_EQ(ReadEntry<uint32_t>(Constants.ObjectToons, 0), 1u);
+	EXPECT_EQ(ReadEntry<uint32_t>(Constants.ToonNumbers, 7), 1u);
+	EXPECT_EQ(ReadEntry<uint32_t>(Constants.ToonNumbers, 6), 0u);
+	ASSERT_OK(Renderer->SetObjectToon(Thing, nullptr));
+	EXPECT_EQ(ReadConstants(DescribeFrame()).ToonStyles, 0u);
+	ASSERT_OK(Renderer->RemoveObject(Thing));
+	EXPECT_REFUSED(Renderer->SetObjectToon(Thing, &Toon), "no such object");
+}
+
+TEST_F(FModuleLightTest, WrongToonStylesAreNamed)
+{
+	const float Nan = std::numeric_limits<float>::quiet_NaN();
+	FRTModuleObject Placed;
+	Placed.Mesh = AddOpaqueMesh();
+	Placed.Materials = &Solid;
+	Placed.MaterialCount = 1;
+	const auto Refuse = [&](auto&& Change, const char* Says) {
+		FRTModuleToon Toon;
+		Change(Toon);
+		Placed.Toon = &Toon;
+		ERTObjectHandle Thing = ERTObjectHandle::None;
+		EXPECT_REFUSED(Renderer->AddObject(Placed, &Thing), Says);
+	};
+	Refuse([&](auto& T) { T.Center[2] = Nan; }, "FRTModuleToon::Center must be finite");
+	for (const float Wrong : {-0.1f, 1.1f, Nan})
+	{
+		Refuse([&](auto& T) { T.SphereWeight = Wrong; }, "FRTModuleToon::SphereWeight");
+		Refuse([&](auto& T) { T.Bend = Wrong; }, "FRTModuleToon::Bend");
+		Refuse([&](auto& T) { T.MaxSaturation = Wrong; }, "FRTModuleToon::MaxSaturation");
+		Refuse([&](auto& T) { T.Occlusion = Wrong; }, "FRTModuleToon::Occlusion");
+	}
+	Refuse([&](auto& T) { T.MaxValue = -1.0f; }, "FRTModuleToon::MaxValue");
+	Refuse([&](auto& T) { T.Tint[0] = T.Tint[1] = T.Tint[2] = 0.0f; }, "FRTModuleToon::Tint");
+	Refuse([&](auto& T) { T.Tint[1] = Nan; }, "FRTModuleToon::Tint");
+}
+
 // An engine's world: centimetres, left-handed, z up.
 TEST_F(FModuleLightTest, ShapesAreInTheEnginesWorld)
 {

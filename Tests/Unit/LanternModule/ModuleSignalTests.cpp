@@ -354,6 +354,9 @@ TEST_F(FModuleSignalTest, WrongInputsAreNamed)
 	Frame.Channels = Normals.Get();
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the channels texture must be R8_UNORM");
 	Frame = DescribeAll();
+	Frame.ToonNumbers = Normals.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the toon numbers texture must be R8_UNORM");
+	Frame = DescribeAll();
 	Frame.BaseColor = Material.Get();
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the base colour texture must be RGBA8_SRGB");
 	Frame = DescribeAll();

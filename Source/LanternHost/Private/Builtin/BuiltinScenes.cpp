@@ -12,6 +12,7 @@
 #include "Builtin/Lamps.h"
 #include "Builtin/Stability/StabilityScenes.h"
 #include "Builtin/Tests/TestScenes.h"
+#include "Builtin/ToonScene.h"
 #include "LanternCore/Text/Quote.h"
 
 namespace Lantern
@@ -44,6 +45,8 @@ constexpr FEntry Entries[] = {
         [](const FValues&) { return BuildCourtyard(); }},
     {{"lamps", "COUNT=640", "a building of 225 rooms with the COUNT lamps nearest to the one in the picture"},
         {{"COUNT", 640.0f, 0.0f, 10000.0f}}, [](const FValues& P) { return BuildLamps(uint32_t(P[0])); }},
+    {{"toon", "STYLED=1", "two figures of a stylised look in a lane between painted walls; 0: without their styles"},
+        {{"STYLED", 1.0f, 0.0f, 1.0f}}, [](const FValues& P) { return BuildToonScene(P[0] >= 0.5f); }},
     {{"furnace", "ALBEDO=0.5", "closed room that emits 0.5; every pixel is 0.5/(1-albedo)"}, {{"ALBEDO", 0.5f, 0.0f, 0.99f}},
         [](const FValues& P) { return BuildFurnace(P[0]); }},
     {{"sphere", "ALBEDO=0.5", "inside of a diffuse sphere of 96 m^2 around 10,000 lm; irradiance 104.17/(1-albedo)"},

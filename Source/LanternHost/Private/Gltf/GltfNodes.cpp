@@ -268,12 +268,36 @@ void ReadTraits(const FJson& Json, FRTObjectTraits& Traits)
 	Traits.Channels = static_cast<uint8_t>(Given.GetUInt("channels", CHANNELS_DEFAULT, 255));
 }
 
+/// Reads extras.lantern.toon of a node.
+std::optional<FToonStyle> ReadToon(const FJson& Json)
+{
+	const FJson Extras = Json.Extra("lantern");
+	const FJson Given = Extras.Member("toon");
+	if (!Given.Exists()) { return std::nullopt; }
+	FToonStyle Style;
+	const auto Read = [&](const char* Name, float Default, float Max) {
+		const float Value = Given.GetFloat(Name, Default);
+		if (!(Value >= 0.0f && Value <= Max)) { Given.Fail(fmt::format("{} is {}, expected a number from 0 to {}", Name, Value, Max)); }
+		return Value;
+	};
+	Style.Center = Given.GetVec3("center", Style.Center);
+	Style.SphereWeight = Read("sphereWeight", Style.SphereWeight, 1.0f);
+	Style.Bend = Read("bend", Style.Bend, 1.0f);
+	Style.MaxSaturation = Read("maxSaturation", Style.MaxSaturation, 1.0f);
+	Style.MaxValue = Read("maxValue", Style.MaxValue, 1.0e6f);
+	Style.Occlusion = Read("occlusion", Style.Occlusion, 1.0f);
+	Style.Tint = Given.GetVec3("tint", Style.Tint);
+	if (Style.Tint != glm::max(Style.Tint, glm::vec3(0)) || Style.Tint == glm::vec3(0)) { Given.Fail("tint is black or negative"); }
+	return Style;
+}
+
 FHostNode ReadNode(FDocument& Document, const FJson& Json, bool bShown, const std::vector<int32_t>& CameraRemap)
 {
 	FHostNode Node;
 	Node.Name = Json.GetString("name", "");
 	ReadTransform(Json, Node);
 	ReadTraits(Json, Node.Traits);
+	Node.Toon = ReadToon(Json);
 	const int32_t Mesh = Json.GetIndex("mesh", Document.MeshRemap.size(), "mesh");
 	const int32_t Camera = Json.GetIndex("camera", CameraRemap.size(), "camera");
 	const FJson LightJson = Json.Extension("KHR_lights_punctual");

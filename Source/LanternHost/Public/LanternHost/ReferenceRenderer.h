@@ -24,7 +24,8 @@ struct FReferenceSettings
 	/// is comparable with them.
 	bool bPixelCenters = false;
 	/// Takes the signal at the surfaces of the raster, as real-time passes do. Differences then come from the method, not from
-	/// which leaf a pixel shows, nor from how its texture is filtered. Implies pixel centres.
+	/// which leaf a pixel shows, nor from how its texture is filtered. Implies pixel centres. Only these surfaces know their objects: diffuse
+	/// global illumination of others, and the whole frame, know no toon styles.
 	bool bRasterSurfaces = false;
 	/// File that keeps the sums between runs; empty: none. It is written every StateSeconds and at the end.
 	std::string StateFile;

@@ -106,6 +106,7 @@ struct FHostNode
 	int32_t Mesh = -1, Skin = -1, Light = -1, Camera = -1;
 	std::vector<int32_t> Materials; ///< by section, replacing the mesh's; empty: the mesh's. Masked only where the mesh's material is
 	FRTObjectTraits Traits;         ///< of the node's mesh; bMoves is left to FHostScene
+	std::optional<FToonStyle> Toon; ///< of the node's mesh
 };
 
 struct FHostSkin

@@ -126,6 +126,9 @@ FStabilityFault MakeSeamsFault(const FMethod& Method)
 	    bFew && !bFiltered ? NoSecondRay : std::vector<FMethodSetting>(), "every other tile is brighter, by 10 and 30 % in turn");
 }
 
+/// Light is that of one frame.
+FStabilityFault MakeForgetfulFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.GI.HistorySeconds", "0.02"}}), ""); }
+
 /// What finds no cell is dark.
 FStabilityFault MakeDarkFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Debug.GI.Fallback", "0"}}), ""); }
 
@@ -157,7 +160,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {19, "furnace", {Diffuse, Reflected}, MeasureFurnace, nullptr, "the sky is 5 % brighter"},
 	    {20, "hybrid seams", {Sun, Occlusion, Diffuse, LampDiffuse}, MeasureSeams, MakeSeamsFault},
 	    {21, "caustics", {}},
-	    {22, "toon edge", {}},
+	    {22, "toon edge", {Diffuse}, MeasureToonEdge, MakeForgetfulFault},
 	    {23, "fog volume", {}},
 	    {24, "far from the origin", EverySignal(true), MeasureFarAway, nullptr, "the camera is moved in steps of 1/16 m"},
 	    {25, "single-sided plane", {Sun}, MeasurePlanes, MakePlanesFault},

@@ -128,6 +128,28 @@ enum class ERTModuleMobility : uint8_t
 	Movable,    ///< moves or deforms; a host's shadow map may leave it to rays
 };
 
+/// How diffuse indirect light falls on an object of a stylised look. Other light, and what the object sends to others, stay as they are.
+/// The light of a pixel is taken in these steps: its normal turns to that of a sphere, and then to the camera. Light is gathered about it.
+/// Saturation and value of the light are limited, its hue is kept. The tint colours it, without a change of its luminance.
+struct FRTModuleToon
+{
+	/// Centre of the sphere, in the mesh's space. A mesh that deforms may move it in each frame, with the head's bone.
+	float Center[3] = {0, 0, 0};
+	/// 0: the object's own normals, to 1: those of the sphere. Above 0, objects with a sphere, such as faces and hair, hide no light from it.
+	float SphereWeight = 0.0f;
+	float Bend = 0.35f;         ///< to the camera: 0 to 1, where all faces the camera
+	float MaxSaturation = 0.5f; ///< of the light: 1 - least / greatest component. 0 to 1, which is no limit
+	/// Greatest component that a white surface shows, in units of the picture's white; ≥ 0. 0: no limit. Needs FRTModuleFrame::Exposure.
+	float MaxValue = 0.8f;
+	/// By how much the engine's lighting darkens the light by ambient occlusion, 0 to 1. Above 0, ambient occlusion is traced if it is
+	/// wanted, also beside diffuse global illumination. The engine's lighting applies it.
+	float Occlusion = 0.0f;
+	float Tint[3] = {1, 1, 1}; ///< such as (1, 0.93, 0.88) for skin; ≥ 0, not black
+	/// 1 to 255: FRTModuleFrame::ToonNumbers names the object by it, as a custom stencil does. 0: nothing names it, and it has no effect.
+	/// Objects may share a number. The style that was set last then counts for all.
+	uint8_t Number = 0;
+};
+
 struct FRTModuleObject
 {
 	ERTMeshHandle Mesh = ERTMeshHandle::None;
@@ -145,6 +167,7 @@ struct FRTModuleObject
 	uint8_t Channels = 1;
 	bool bVisible = true; ///< seen by all rays but those of shadows: reflections and diffuse light
 	ERTModuleMobility Mobility = ERTModuleMobility::Movable;
+	const FRTModuleToon* Toon = nullptr; ///< read during the call; null: light falls on it as it is
 };
 
 enum class ERTModuleLight : uint8_t
@@ -324,6 +347,9 @@ public:
 	virtual FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible) = 0;
 	/// Sets FRTModuleObject::Channels. The first object or light without channel 0 needs other shaders, which compile beside the frames.
 	virtual FRTStatus SetObjectChannels(ERTObjectHandle Handle, uint8_t Channels) = 0;
+	/// Sets FRTModuleObject::Toon; null: none. Costs what changed, so that it may come with each frame. The first style of a scene needs
+	/// other shaders, which compile beside the frames. InvalidArgument names the member that is wrong.
+	virtual FRTStatus SetObjectToon(ERTObjectHandle Handle, const FRTModuleToon* Toon) = 0;
 	/// Removes an object. May be called while frames that show it are in flight.
 	virtual FRTStatus RemoveObject(ERTObjectHandle Handle) = 0;
 	/// Adds a light. Costs what changed, whatever the number of lights; so do SetLight and RemoveLight. InvalidArgument names the

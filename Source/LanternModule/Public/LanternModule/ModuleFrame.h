@@ -199,6 +199,8 @@ struct FRTModuleFrame
 	/// R8_UNORM: channels of each pixel's object (FRTModuleObject::Channels) over 255. May be null: local lights then light what the
 	/// picture shows as if all of it were of channel 0.
 	IRTTexture* Channels = nullptr;
+	/// R8_UNORM: FRTModuleToon::Number of each pixel's object over 255; 0: none. May be null: no toon style has an effect.
+	IRTTexture* ToonNumbers = nullptr;
 	ERTAccess DepthAccess = ERTAccess::ShaderRead;
 	ERTAccess NormalsAccess = ERTAccess::ShaderRead;
 	ERTAccess MotionAccess = ERTAccess::ShaderRead;
@@ -206,6 +208,7 @@ struct FRTModuleFrame
 	ERTAccess MaterialAccess = ERTAccess::ShaderRead;
 	ERTAccess ClassesAccess = ERTAccess::ShaderRead;
 	ERTAccess ChannelsAccess = ERTAccess::ShaderRead;
+	ERTAccess ToonNumbersAccess = ERTAccess::ShaderRead;
 	/// Geometric normals, coded as Normals are. May be null, see Layout.bGeometricInZw.
 	IRTTexture* GeometricNormals = nullptr;
 	ERTAccess GeometricNormalsAccess = ERTAccess::ShaderRead;

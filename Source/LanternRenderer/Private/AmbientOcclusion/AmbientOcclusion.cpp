@@ -6,6 +6,7 @@
 #include "Denoise/Denoise.h"
 #include "Lighting/DirectLighting.h"
 #include "SignalPasses.h"
+#include "Toon/Toon.h"
 
 namespace Lantern
 {
@@ -70,7 +71,8 @@ FPassRays ChooseAmbientOcclusionRays(const FPassQuery& Query)
 	FPassRays Rays;
 	if (!IsRayTracingEnabled() || !CVarEnable.GetOnRenderThread()) { return Rays; }
 	const bool bUsed = Query.Facts.Objects > 0 && HasSkyAmbient(Query.Facts) && !Query.bReplaced;
-	if (!bUsed && !Query.Requests.Wanted.Has(ESignal::AmbientOcclusion)) { return Rays; }
+	const bool bLayer = Query.Facts.Objects > 0 && Query.Facts.bToonLayer && AreToonStylesOn();
+	if (!bUsed && !bLayer && !Query.Requests.Wanted.Has(ESignal::AmbientOcclusion)) { return Rays; }
 	Rays.Path = ChooseRayPath(Query, CVarPath, "ambient occlusion is");
 	// Without a loop nothing but the pixel lives across the trace.
 	if (CVarSamples.GetOnRenderThread() == 1) { Rays.Defines.emplace_back("ONE_SAMPLE", "1"); }

@@ -73,6 +73,7 @@ struct FPaths
 	FPathGuide Guide;     ///< invalid: paths are not guided
 	FScreenProbes Probes; ///< invalid: paths start at pixels
 	FSharedPaths Shared;  ///< invalid: paths light their own pixels alone
+	FGraphTexture Toon;   ///< FToonOfFrame::Pixels; invalid: all paths start at what pixels show
 	FRayDispatch First, Second;
 	uint32_t Width = 0, Height = 0; ///< of the first launch
 	/// Whether launches write the outputs. Else a pass behind them does.
@@ -85,6 +86,7 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	const EPixelRate Rate = FindRate(First.Defines);
 	FPaths Paths;
 	Paths.First = First;
+	Paths.Toon = GetSignalPass(Settings.Signal).bStyled ? Context.Toon.Pixels : FGraphTexture();
 	Paths.Width = Rate != EPixelRate::Full ? DivideUp(Context.Width, 2) : Context.Width;
 	Paths.Height = Rate == EPixelRate::Quarter ? DivideUp(Context.Height, 2) : Context.Height;
 	Paths.Output = Context.Graph.CreateTexture({Context.Width, Context.Height, Info.Format, ERTTextureUsage::CopySource}, Info.Pass);
@@ -171,6 +173,7 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 {
 	Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 	Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
+	if (Paths.Toon.IsValid()) { Builder.Read(Paths.Toon, ERTAccess::ShaderRead); }
 	if (NeedsSurface(Settings, Paths))
 	{
 		for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material})
@@ -219,6 +222,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.ProbeGrid = WriteScreenProbeGrid(Pass, Paths.Probes);
 	C.Shared = GetAddress(Pass, Paths.Shared.Fresh);
 	C.NearPixels = GetNearPixels();
+	C.ToonPixels = GetSampledIndex(Pass, Paths.Toon);
 	if (bDeferred) { return TraceDeferred(Pass, Frame, Paths, C); }
 	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces));
 	TraceFirst(Pass, Frame, Paths, C);

@@ -10,6 +10,7 @@
 #include "RadianceCells/RadianceCellsView.h"
 #include "Reflections/Reflections.h"
 #include "SignalPasses.h"
+#include "Toon/Toon.h"
 
 namespace Lantern
 {
@@ -123,7 +124,11 @@ FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBrute
 const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	if (Context.IndirectLobes) { return *Context.IndirectLobes; }
-	Context.IndirectLobes = FilterLobes(Context, GBuffer, AddBruteForcePass(BruteForce, Context, GBuffer));
+	// The filter tells surfaces apart by the normals that they have, in the frame before as well.
+	FLobes Lobes = FilterLobes(Context, GBuffer, AddBruteForcePass(BruteForce, Context, RequireToonSurface(Context, GBuffer)));
+	const bool bHorizon = !IsProbeRoute(); // probes make up for what lies below a surface
+	Lobes.Diffuse = AddToonGrade(Context, GBuffer, Lobes.Diffuse, bHorizon, Denoise.IsEnabled());
+	Context.IndirectLobes = Lobes;
 	AddRadianceCellsView(Context, GBuffer);
 	return *Context.IndirectLobes;
 }
@@ -133,6 +138,7 @@ FPassRays ChooseDiffuseGIRays(const FPassQuery& Query)
 {
 	FPassRays Rays = ChooseBruteForceRays(BruteForce, Query);
 	if (Rays.bRadianceCells) { ListRadianceCellsViewShaders(Rays.Compute); }
+	if (Rays.Path != ERayPath::None) { ListToonShaders(Query.Facts, false, Rays.Compute); }
 	return Rays;
 }
 

@@ -8,6 +8,7 @@
 #include "LocalLights/Emitters.h"
 #include "PassTools.h"
 #include "Sky/SkyLight.h"
+#include "Toon/Toon.h"
 
 namespace Lantern
 {
@@ -37,6 +38,7 @@ FShaderSource MakeLightingSource(FSceneFacts Facts)
 	Facts.bMasked = false; // nothing of it reaches lighting
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (bLights) { AddEmitterDefines(Facts, Defines); }
+	if (Facts.bToon && AreToonStylesOn()) { Defines.emplace_back("HAS_TOON", "1"); }
 	return MakeComputeSource("Lighting/DirectLighting.comp", std::move(Defines));
 }
 
@@ -53,6 +55,8 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 	const bool bVisitsLights = HasLocalLight() && !bShadowed;
 	if (bVisitsLights) { RequireLightCells(Context, Inputs.GBuffer); }
 	const FGraphTexture Channels = RequirePixelChannels(Context, Inputs.GBuffer);
+	(void)RequireToonSurface(Context, Inputs.GBuffer);
+	const FToonOfFrame Toon = Context.Toon;
 	const FPassConstants PassConstants = Context.Pass;
 	const float Surroundings = CVarSurroundings.GetOnRenderThread();
 	const uint32_t Width = Context.Width, Height = Context.Height;
@@ -63,7 +67,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
 		for (const FGraphTexture Texture : {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular,
-		         Inputs.IndirectRough, SkyLight, LightsDiffuse, LightsSpecular, Channels})
+		         Inputs.IndirectRough, SkyLight, LightsDiffuse, LightsSpecular, Channels, Toon.Normals, Toon.Pixels})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -87,6 +91,8 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.LightsDiffuse = Sampled(LightsDiffuse);
 			C.LightsSpecular = Sampled(LightsSpecular);
 			C.Channels = Sampled(Channels);
+			C.ToonNormals = Sampled(Toon.Normals);
+			C.ToonPixels = Sampled(Toon.Pixels);
 			C.Surroundings = Surroundings;
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
 			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);

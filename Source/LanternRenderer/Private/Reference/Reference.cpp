@@ -5,9 +5,15 @@
 #include "LocalLights/Emitters.h"
 #include "ReferenceTypes.h"
 #include "SignalPasses.h"
+#include "Toon/Toon.h"
 
 namespace Lantern
 {
+
+namespace
+{
+bool IsStyled(ESignal Signal) { return Signal != ESignal::Frame && GetSignalPass(Signal).bStyled; }
+} // namespace
 
 FPassRays ChooseReferenceRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, ESignal Signal, bool bFromGBuffer)
 {
@@ -27,6 +33,22 @@ std::string GetReferencePath(ESignal Signal)
 	return Signal == ESignal::Frame ? "Reference/PathTrace.rgen" : MakeShaderPath(Signal, "Reference.rgen");
 }
 
+void ListReferenceShaders(const FSceneFacts& Facts, ESignal Signal, std::vector<FShaderSource>& Out)
+{
+	if (Facts.bLightChannels) { Out.push_back(MakePixelChannelsSource()); }
+	if (IsStyled(Signal)) { ListToonShaders(Facts, true, Out); }
+}
+
+bool IsReferenceGraded(const FSceneFacts& Facts, ESignal Signal)
+{
+	return Signal != ESignal::Frame && GetSignalPass(Signal).bToonGraded && Facts.bToon && AreToonStylesOn();
+}
+
+void AddReferenceGrade(FFrameContext& Context, const FReferencePassInputs& Inputs)
+{
+	if (IsReferenceGraded(Context.Facts, Inputs.Signal)) { AddToonReferenceGrade(Context, Inputs.GBuffer, Inputs.Sum); }
+}
+
 void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs)
 {
 	if (Context.GetRayGen(ESignal::Frame) == NoRayGen)
@@ -37,11 +59,13 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 	}
 	Context.RequireRays();
 	const FGraphTexture Channels = RequirePixelChannels(Context, Inputs.GBuffer);
+	const bool bStyled = Inputs.GBuffer.Depth.IsValid() && IsStyled(Inputs.Signal);
+	const FGBuffer G = bStyled ? RequireToonSurface(Context, Inputs.GBuffer) : Inputs.GBuffer;
+	const FGraphTexture Toon = bStyled ? Context.Toon.Pixels : FGraphTexture();
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("PathTrace", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(Inputs.Sum, ERTAccess::StorageWrite | ERTAccess::ShaderRead);
-		const FGBuffer& G = Inputs.GBuffer;
-		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, G.Emissive, Channels})
+		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, G.Emissive, Channels, Toon})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -57,12 +81,13 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 			ForEachSignalPass([&](const FSignalPass& Signal) {
 				if (Signal.SetReferenceConstants) { Signal.SetReferenceConstants(C); }
 			});
-			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
-			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
-			C.BaseColor = GetSampledIndex(Pass, Inputs.GBuffer.BaseColor);
-			C.Material = GetSampledIndex(Pass, Inputs.GBuffer.Material);
-			C.Emissive = GetSampledIndex(Pass, Inputs.GBuffer.Emissive);
+			C.Depth = GetSampledIndex(Pass, G.Depth);
+			C.Normals = GetSampledIndex(Pass, G.Normals);
+			C.BaseColor = GetSampledIndex(Pass, G.BaseColor);
+			C.Material = GetSampledIndex(Pass, G.Material);
+			C.Emissive = GetSampledIndex(Pass, G.Emissive);
 			C.Channels = GetSampledIndex(Pass, Channels);
+			C.ToonPixels = GetSampledIndex(Pass, Toon);
 			Pass.CountRays(uint64_t(Frame->Width) * Inputs.RowCount * Inputs.SampleCount);
 			TraceFrameRays(Pass, *Frame, Frame->GetRayGen(ESignal::Frame), C, Frame->Width, Inputs.RowCount);
 		};

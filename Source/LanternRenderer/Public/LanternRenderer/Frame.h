@@ -28,7 +28,10 @@ struct FGBuffer
 	FGraphTexture Classes;
 	/// R8_UNORM: channels of the pixel's object (FRTObjectTraits) over 255. Invalid: as without Classes, and CHANNELS_DEFAULT for none.
 	FGraphTexture Channels;
-	glm::uvec2 ClassesOffset{0}; ///< of the view in Classes and Channels, pixels, below 65,536
+	/// R8_UNORM: numbers of toon styles (FToonStyle) over 255; 0: none. Invalid: with bNamesObjects, a pixel has the style of the object that
+	/// Motion names, and without it none.
+	FGraphTexture ToonNumbers;
+	glm::uvec2 ClassesOffset{0}; ///< of the view in Classes, Channels and ToonNumbers, pixels, below 65,536
 };
 
 /// What a frame made. A texture is invalid if the scene has no use for it, if it is off, or if its shaders are being compiled.
@@ -67,7 +70,8 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer);
 
 struct FReferencePassInputs
 {
-	FGraphBuffer Sum; ///< vec4[Width · Height]: sums of radiance, and of samples in w
+	ESignal Signal = ESignal::Frame; ///< FFrameFeatures::ReferenceSignal
+	FGraphBuffer Sum;                ///< vec4[Width · Height]: sums of radiance, and of samples in w
 	uint32_t FirstSample = 0, SampleCount = 1;
 	uint32_t MaxBounces = 0; ///< scattering events at most; 0: directly seen light only
 	uint32_t FirstRow = 0, RowCount = 0;
@@ -77,5 +81,9 @@ struct FReferencePassInputs
 /// Adds samples of FFrameFeatures::ReferenceSignal. A signal of one channel has its value in all three. Sky pixels: visibilities
 /// are 1, radiances 0.
 void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs);
+/// Whether the sum of all samples is not yet the signal: some of it is no mean of samples (FToonStyle). Needs bReferenceFromGBuffer.
+bool IsReferenceGraded(const FSceneFacts& Facts, ESignal Signal);
+/// Makes the signal of the sum, in a frame of its own with the same features. Does nothing if IsReferenceGraded is false.
+void AddReferenceGrade(FFrameContext& Context, const FReferencePassInputs& Inputs);
 
 } // namespace Lantern

@@ -243,6 +243,14 @@ struct FLobes
 	FGraphTexture Diffuse, Specular; ///< RGBA16_FLOAT
 };
 
+/// Surfaces of objects with a style: see ToonSurface.comp.
+struct FToonOfFrame
+{
+	FGraphTexture Normals; ///< as FGBuffer::Normals, about which pixels gather light
+	FGraphTexture Pixels;  ///< RG32_FLOAT, see FToonSurfaceConstants
+	bool IsValid() const { return Pixels.IsValid(); }
+};
+
 /// The frame as passes see it.
 struct FFrameContext
 {
@@ -286,6 +294,7 @@ struct FFrameContext
 	FSurfaceTextures Surface;
 	FLightCellsOfFrame LightCells;
 	FGraphTexture PixelChannels; ///< invalid: nobody has asked so far, or there is none
+	FToonOfFrame Toon;           ///< invalid: nobody has asked so far, or there is none
 	FFogOfFrame Fog;
 	/// What r.RT.Debug.View shows instead of a signal, RGBA8_UNORM; invalid: nothing drew it.
 	FGraphTexture DebugPicture;

@@ -146,6 +146,7 @@ FSceneConstants FRTScene::GetConstants() const
 	FSceneConstants C{};
 	C.Objects = Objects.GetTable().GetAddress();
 	C.ObjectChannels = Objects.GetChannels().Num() > 0 ? Objects.GetChannels().GetAddress() : 0;
+	Objects.GetToons().FillConstants(C);
 	C.Sections = Materials.GetSections().GetTable().GetAddress();
 	C.Materials = Materials.GetTable().GetAddress();
 	Lights.FillConstants(C);

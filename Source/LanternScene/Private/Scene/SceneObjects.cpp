@@ -43,6 +43,8 @@ double GetStretch(const glm::dmat4& Transform)
 	return std::sqrt(Largest);
 }
 
+bool HasSphere(const FRTObjectInfo& Info) { return Info.Toon && Info.Toon->SphereWeight > 0.0f; }
+
 uint32_t IsOffChannel(uint8_t Channels) { return (Channels & CHANNELS_DEFAULT) == 0 ? 1 : 0; }
 } // namespace
 
@@ -68,6 +70,7 @@ FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
 	Characters += Object.Info.bCharacter ? 1 : 0;
 	OffChannel += IsOffChannel(Object.Info.Channels);
 	WriteChannels(Slot);
+	Toons.Set(Slot, Object.Info.Toon.get(), GetSlotCount());
 	JoinRange(Slot, Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials));
 	Motions.Add(Slot, *Object.Info.Geometry);
 	JoinGeometry(Slot);
@@ -84,6 +87,7 @@ void FSceneObjects::Remove(FRTObjectId Id)
 	Characters -= Object.Info.bCharacter ? 1 : 0;
 	OffChannel -= IsOffChannel(Object.Info.Channels);
 	NoteCaster(Id.Index, 1.0);
+	Toons.Set(Id.Index, nullptr, GetSlotCount());
 	Instances.Remove(Id.Index);
 	Motions.Remove(Id.Index);
 	Pivots.Remove(Id.Index);
@@ -93,6 +97,7 @@ void FSceneObjects::Remove(FRTObjectId Id)
 	Objects.Free(Id.Index);
 	Table.Truncate(GetSlotCount());
 	ChannelTable.Truncate(GetSlotCount());
+	Toons.Truncate(GetSlotCount());
 	Motions.Truncate(GetSlotCount());
 }
 
@@ -156,6 +161,15 @@ void FSceneObjects::SetChannels(FRTObjectId Id, uint8_t Channels)
 	OffChannel += IsOffChannel(Channels) - IsOffChannel(Before);
 	WriteChannels(Id.Index);
 	CasterChanges.AddAnywhere(); // filters look whether their light is still right
+}
+
+void FSceneObjects::SetToon(FRTObjectId Id, std::shared_ptr<const FToonStyle> Style)
+{
+	FObject& Object = Resolve(Id);
+	const bool bSphere = HasSphere(Object.Info);
+	Object.Info.Toon = std::move(Style);
+	Toons.Set(Id.Index, Object.Info.Toon.get(), GetSlotCount());
+	if (HasSphere(Object.Info) != bSphere) { Place(Id.Index); } // another mask
 }
 
 /// The table begins with the first object that needs it. It has all objects then: shaders look up any.
@@ -303,7 +317,7 @@ void FSceneObjects::Place(uint32_t Slot)
 	Pivots.Set(Slot, glm::dvec3(Transform[3]), Placement.Center, Placement.Radius);
 	Placement.Range = Object.Range;
 	Placement.Group = Object.Info.Group;
-	Placement.Mask = Object.Info.Mask;
+	Placement.Mask = HasSphere(Object.Info) ? static_cast<uint8_t>(Object.Info.Mask & ~MASK_OUTSIDE_SPHERES) : Object.Info.Mask;
 	Instances.Set(Slot, Placement);
 }
 

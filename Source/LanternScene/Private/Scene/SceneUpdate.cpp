@@ -50,6 +50,8 @@ const FSceneFacts& FSceneUpdate::RefreshFacts()
 	Facts.Objects = Parts.Objects.GetInstances().GetCount();
 	Facts.DynamicGeometries = Parts.Geometries.GetDynamicCount();
 	Facts.bCharacters = Parts.Objects.GetCharacterCount() > 0;
+	Facts.bToon = Parts.Objects.GetToons().GetCount() > 0;
+	Facts.bToonLayer = Parts.Objects.GetToons().GetOccludedCount() > 0;
 	const bool bListed = Parts.Emissive.IsUsable();
 	Facts.EmissiveTriangles = bListed ? Parts.Emissive.GetTriangleCount() : 0;
 	Facts.EmissiveClusters = bListed ? Parts.Emissive.GetClusters().Num() : 0;
@@ -171,6 +173,7 @@ void FSceneUpdate::VisitTables(FVisit Visit) const
 	Visit(Parts.Lights.GetProfiles().GetHeaders());
 	Visit(Parts.Lights.GetProfiles().GetTexels());
 	Visit(Parts.Objects.GetChannels());
+	Parts.Objects.GetToons().VisitTables(Visit);
 	Visit(Parts.Emissive.GetClusters());
 	Visit(Parts.Emissive.GetRanges());
 	Visit(Parts.Materials.GetSections().GetTable());

@@ -113,14 +113,15 @@ inline constexpr FSignalInfo SignalInfos[] = {
     {ESignal::SunShadow, "sun_shadow", "Sun shadow", "SunShadow", "Shadow", ERTFormat::R16_FLOAT, 1, false, true, true, false, false, ""},
     {ESignal::AmbientOcclusion, "ambient_occlusion", "Ambient occlusion", "AmbientOcclusion", "", ERTFormat::R16_FLOAT, 1, false, false,
         false, false, false, "r.RT.AO.Radius r.RT.AO.InstanceMask"},
-    {ESignal::DiffuseGI, "diffuse_gi", "Diffuse GI", "DiffuseGI", "", ERTFormat::RGBA16_FLOAT, 3, true, false, true, false, false, ""},
+    {ESignal::DiffuseGI, "diffuse_gi", "Diffuse GI", "DiffuseGI", "", ERTFormat::RGBA16_FLOAT, 3, true, false, true, false, false,
+        "r.RT.GI.Toon"},
     {ESignal::Reflections, "reflections", "Reflections", "Reflections", "", ERTFormat::RGBA16_FLOAT, 3, true, false, true, true, true, ""},
     {ESignal::LocalDiffuse, "local_diffuse", "Local lights, diffuse", "LocalDiffuse", "Shadow", ERTFormat::RGBA16_FLOAT, 3, true, false,
         true, true, false, ""},
     {ESignal::LocalSpecular, "local_specular", "Local lights, specular", "LocalSpecular", "Shadow", ERTFormat::RGBA16_FLOAT, 3, true, false,
         true, true, true, "r.RT.Reflections r.RT.Reflections.MaxRoughness"},
     {ESignal::RoughSpecular, "rough_specular", "Rough specular", "RoughSpecular", "DiffuseGI", ERTFormat::RGBA16_FLOAT, 3, true, false,
-        true, true, true, ""},
+        true, true, true, "r.RT.GI.Toon"},
 };
 static_assert(sizeof(SignalInfos) / sizeof(SignalInfos[0]) == SignalCount, "each signal needs a row");
 static_assert(

@@ -18,7 +18,7 @@ FSceneDescription BuildStabilityToon()
 	FMeshBuilder Ball("ball");
 	Ball.BeginSection(Builder.AddLambert("ball", {0.8f, 0.45f, 0.35f}));
 	Ball.AddSphere({0, 0, 0}, 0.75f, 4);
-	Builder.AddNode("ball", Builder.AddMesh(Ball), {-0.9f, 0.75f, -1.1f});
+	const int32_t BallNode = Builder.AddNode("ball", Builder.AddMesh(Ball), {-0.9f, 0.75f, -1.1f});
 	FMeshBuilder Vase("vase");
 	Vase.BeginSection(Builder.AddLambert("vase", {0.4f, 0.6f, 0.75f}));
 	std::vector<glm::vec2> Profile;
@@ -29,7 +29,9 @@ FSceneDescription BuildStabilityToon()
 	}
 	Vase.AddLathe(Profile, 48);
 	Vase.AddDisk({0, 1.6f, 0}, {0, 1, 0}, Profile.back().x, 48);
-	Builder.AddNode("vase", Builder.AddMesh(Vase), {1.0f, 0, -1.4f});
+	const int32_t VaseNode = Builder.AddNode("vase", Builder.AddMesh(Vase), {1.0f, 0, -1.4f});
+	Builder.Scene.Nodes[static_cast<size_t>(BallNode)].Toon = FToonStyle{.SphereWeight = 1.0f, .Bend = 0.0f};
+	Builder.Scene.Nodes[static_cast<size_t>(VaseNode)].Toon = FToonStyle();
 	Builder.AddCamera({0.9, 1.5, 1.1}, {-0.1, 0.9, -1.6}, 75);
 	Builder.SetLight({0.25f, -0.5f, -1}, 6.0f, {0.5f, 0.6f, 0.8f});
 	Builder.Scene.DefaultExposure = 3.0f;

@@ -68,6 +68,7 @@ FRTStatus MeasureLightGrid(FStabilityStage& Stage, std::vector<FStabilityFigure>
 FRTStatus MeasureFrameRate(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureFurnace(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureSeams(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureToonEdge(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureFarAway(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasurePlanes(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureMissingShaders(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);

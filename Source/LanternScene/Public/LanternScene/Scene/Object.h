@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "LanternScene/Geometry/Geometry.h"
+#include "LanternScene/Scene/ToonStyles.h"
 #include "SceneTypes.h"
 
 namespace Lantern
@@ -55,8 +57,9 @@ struct FRTObjectInfo
 	std::vector<uint32_t> Materials; ///< per section, indices of the scene's materials
 	glm::dmat4 Transform{1.0};       ///< object to world, affine, metres
 	uint8_t Mask = MaskDefault;
-	bool bCharacter = false;             ///< characters do not shadow it: FRTObjectTraits
-	uint8_t Channels = CHANNELS_DEFAULT; ///< FRTObjectTraits
+	bool bCharacter = false;                ///< characters do not shadow it: FRTObjectTraits
+	uint8_t Channels = CHANNELS_DEFAULT;    ///< FRTObjectTraits
+	std::shared_ptr<const FToonStyle> Toon; ///< null: light falls on it as on any other
 	/// > 0: the object is culled together with all objects of this group, by the bounds of the whole group.
 	uint32_t Group = 0;
 };

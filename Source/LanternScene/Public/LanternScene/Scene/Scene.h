@@ -56,6 +56,8 @@ struct FSceneFacts
 	bool bSky = false;
 	bool bSkyMap = false;     ///< it is a texture
 	bool bCharacters = false; ///< some objects are not shadowed by characters: FRTObjectTraits
+	bool bToon = false;       ///< light falls on some objects as on a drawing: FToonStyle
+	bool bToonLayer = false;  ///< some of them have an Occlusion
 	bool bHostShadow = false; ///< the frame's host has a shadow map of the sun; set by the renderer
 	/// The frame's host reads the light mask, and there is a light for it. Set by the renderer.
 	bool bLightMask = false;
@@ -131,6 +133,7 @@ public:
 	/// Replaces FRTObjectInfo::Mask. The object's motion stays.
 	void SetMask(FRTObjectId Id, uint8_t Mask) { Objects.SetMask(Id, Mask); }
 	void SetChannels(FRTObjectId Id, uint8_t Channels) { Objects.SetChannels(Id, Channels); }
+	void SetToon(FRTObjectId Id, std::shared_ptr<const FToonStyle> Style) { Objects.SetToon(Id, std::move(Style)); }
 	const FRTObjectInfo& GetObject(FRTObjectId Id) const { return Objects.Get(Id); }
 	/// Returns the number of slots to visit in a walk over all objects. FindObject returns null for the free ones.
 	uint32_t GetObjectSlotCount() const { return Objects.GetSlotCount(); }

@@ -46,6 +46,8 @@ public:
 	/// Changes nothing but who sees the object: its motion stays.
 	void SetMask(FRTObjectId Id, uint8_t Mask);
 	void SetChannels(FRTObjectId Id, uint8_t Channels);
+	/// Null: light falls on the object as on any other.
+	void SetToon(FRTObjectId Id, std::shared_ptr<const FToonStyle> Style);
 	/// Notes that the shape of all objects with this geometry is another one in this frame.
 	void MarkDeformed(const FRTGeometryRef& Geometry);
 	/// Notes that a material looks otherwise. O(objects that have it, up to FAppearanceChanges::MostObjects).
@@ -76,6 +78,8 @@ public:
 	/// FSceneConstants::ObjectChannels; empty until some object has other channels than the default.
 	TGpuTable<uint32_t>& GetChannels() { return ChannelTable; }
 	const TGpuTable<uint32_t>& GetChannels() const { return ChannelTable; }
+	FToonStyles& GetToons() { return Toons; }
+	const FToonStyles& GetToons() const { return Toons; }
 	FInstanceStore& GetInstances() { return Instances; }
 	const FInstanceStore& GetInstances() const { return Instances; }
 	FObjectMotions& GetMotions() { return Motions; }
@@ -120,6 +124,7 @@ private:
 	std::vector<uint32_t> FirstOfRange;                                         // by range: a list of objects through NextOfRange
 	TGpuTable<FObjectData> Table{"Objects"};
 	TGpuTable<uint32_t> ChannelTable{"ObjectChannels"};
+	FToonStyles Toons;
 	FObjectMotions Motions{Table};
 	FCasterChanges CasterChanges;
 	FAppearanceChanges AppearanceChanges;

@@ -1,0 +1,12 @@
+// The built-in scene of a stylised look.
+#pragma once
+
+#include "LanternHost/SceneDescription.h"
+
+namespace Lantern::Builtin
+{
+
+/// Has a camera on both figures, and one on the first one's face. bStyled: if false, the objects have no toon styles.
+FSceneDescription BuildToonScene(bool bStyled);
+
+} // namespace Lantern::Builtin
