@@ -15,7 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FSampleSumR
 // there are none, and what is left of them would show.
 vec3 SmoothOnSphere(FViewConstants View, ivec2 Pixel, uint Toon, vec3 Own)
 {
-	const int Reach = 2, Step = 3; // taps to each side, pixels
+	const int Reach = 2, Step = 6; // taps to each side, pixels
 	const float Sharpness = 32.0;  // of the weight by the angle between normals
 	vec3 N = OctDecode(texelFetch(Textures[Push.Normals], Pixel, 0).xy), Sum = Own;
 	float Weights = 1.0;

@@ -1,7 +1,10 @@
 // Objects of a stylised look: closed forms of each step, the reference, and that nothing else changes.
 #include <cmath>
 
+#include "Lights/PixelChannels.h"
+#include "MotionFixture.h"
 #include "SignalFixture.h"
+#include "Toon/Toon.h"
 
 namespace Lantern
 {
@@ -123,6 +126,48 @@ TEST_F(FToonTest, OthersKeepTheirBits)
 		for (uint32_t X = Size / 2; X < Size; ++X) { ASSERT_EQ(At(Styled, X, Y), At(Plain, X, Y)) << X << " " << Y; }
 	}
 	EXPECT_NE(At(Styled, 4, 12), At(Plain, 4, 12));
+}
+
+class FToonNumberTest : public FMotionTestBase
+{};
+
+// An engine's numbers name the styles that the raster's objects have. The channels of objects serve as numbers here.
+TEST_F(FToonNumberTest, NumbersNameStylesAsObjectsDo)
+{
+	constexpr uint8_t Number = 4;
+	FTestScene Out("numbers");
+	const int32_t Grey = Out.AddLambert(glm::vec3(0.5f), glm::vec3(0), true);
+	for (const float X : {-1.0f, 0.0f})
+	{
+		const int32_t Node = Out.AddNode(Out.AddMesh({{Grey, {{X, -1, 0}, {X + 1, -1, 0}, {X + 1, 1, 0}, {X, 1, 0}}}}));
+		if (X < 0.0f) { Out.Scene.Nodes[static_cast<size_t>(Node)].Toon = FToonStyle{.SphereWeight = 0.5f, .Number = Number}; }
+		if (X < 0.0f) { Out.Scene.Nodes[static_cast<size_t>(Node)].Traits.Channels = Number; }
+	}
+	ASSERT_TRUE(Load(std::move(Out.Scene)));
+	SetSun(0.5);
+	const FView View = MakeCamera({0, 0, 3}, {0, 0, 0});
+	TRTRef<IRTBuffer> ByObject, ByNumber, Normals, NumberNormals;
+	GetEngine().ExtraPasses = [&](FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs&) {
+		FGBuffer Numbered = GBuffer;
+		Numbered.ToonNumbers = RequirePixelChannels(Context, GBuffer);
+		Numbered.bNamesObjects = false;
+		(void)RequireToonSurface(Context, GBuffer);
+		Read(Context, Context.Toon.Pixels, ByObject);
+		Read(Context, Context.Toon.Normals, Normals);
+		Context.Toon = {};
+		(void)RequireToonSurface(Context, Numbered);
+		Read(Context, Context.Toon.Pixels, ByNumber);
+		Read(Context, Context.Toon.Normals, NumberNormals);
+	};
+	EXPECT_OK(GetEngine().RenderFrame(View, 0.0, {}, nullptr));
+	EXPECT_OK(GetEngine().GetRenderer().WaitForAll());
+	GetEngine().ExtraPasses = {};
+	const std::vector<glm::vec2> Objects = Take<glm::vec2>(ByObject.Get(), View), Numbers = Take<glm::vec2>(ByNumber.Get(), View);
+	EXPECT_EQ(Objects, Numbers);
+	EXPECT_EQ(Take<glm::u16vec4>(Normals.Get(), View), Take<glm::u16vec4>(NumberNormals.Get(), View));
+	const size_t Row = size_t(Height / 2) * Width;
+	EXPECT_EQ(Numbers[Row + Width / 2 - 8], glm::vec2(0.5f, 1.0f));
+	EXPECT_EQ(Numbers[Row + Width / 2 + 8], glm::vec2(0)) << "channel 0 is no style's number";
 }
 
 /// A cube over a wide floor that shines with 1, in a dark world: about any normal N, its light is (1 - N.y) / 2.

@@ -49,8 +49,9 @@ const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.SigmaValue = 3.0f, 
 constexpr int32_t FirstCachedRoute = 2;
 constexpr uint32_t MostProbePasses = 2; // of the wavelet: probes have spread their light already
 
-constexpr uint32_t MostReusePasses = 3; // paths have been shared already
-constexpr uint32_t ReuseStep = 2;       // pixels, from one path to the next where one pixel of four traces
+constexpr uint32_t MostReusePasses = 3;     // paths have been shared already
+constexpr float KnownChangesHistory = 2.0f; // Docs/Performance.md, "History of shared paths"
+constexpr uint32_t ReuseStep = 2;           // pixels, from one path to the next where one pixel of four traces
 
 bool IsProbeRoute() { return CVarRoute.GetOnRenderThread() == 2; }
 /// Pixels with many paths of their own know enough.
@@ -77,8 +78,9 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 	}
 	if (IsReused())
 	{
-		// Each pixel has a value in each frame, and as few paths in a second as one that has a value in its turn.
-		Settings.HistorySeconds *= static_cast<float>(GetTurnFrames(GetTraceRate()));
+		// Each pixel has a value in each frame, and as few paths in a second as one that has a value in its turn. The scene says what has
+		// changed, so that history may last longer than where the picture must show it.
+		Settings.HistorySeconds *= KnownChangesHistory * static_cast<float>(GetTurnFrames(GetTraceRate()));
 		Settings.Passes = std::min(Settings.Passes, MostReusePasses);
 		if (GetTraceRate() != EPixelRate::Full) { Settings.FirstStep = ReuseStep; }
 	}

@@ -75,16 +75,16 @@ FGBuffer RequireToonSurface(FFrameContext& Context, const FGBuffer& GBuffer)
 		}
 		for (const FGraphTexture Texture : {Toon.Normals, Toon.Pixels}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
-		return [=, Offset = GBuffer.ClassesOffset, Source = GBuffer](FPassContext& Pass) {
+		return [=, Source = GBuffer, Out = Toon](FPassContext& Pass) {
 			FToonSurfaceConstants C{};
 			C.Pass = Frame->Pass;
 			C.Depth = GetSampledIndex(Pass, Source.Depth);
 			C.Normals = GetSampledIndex(Pass, Source.Normals);
 			C.Numbers = GetSampledIndex(Pass, Numbers);
-			C.NumbersOffset = Offset.x | (Offset.y << 16);
+			C.NumbersOffset = Source.ClassesOffset.x | (Source.ClassesOffset.y << 16);
 			C.Motion = GetSampledIndex(Pass, Motion);
-			C.OutNormals = GetStorageIndex(Pass, Frame->Toon.Normals);
-			C.OutPixels = GetStorageIndex(Pass, Frame->Toon.Pixels);
+			C.OutNormals = GetStorageIndex(Pass, Out.Normals);
+			C.OutPixels = GetStorageIndex(Pass, Out.Pixels);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TOON_GROUP_SIZE);
 		};
 	});
