@@ -273,8 +273,8 @@ std::string FSession::MakeSceneKey(const FPictureOptions& Options) const
 	Key += fmt::format("{} {} {} {} {} {} {} {}\n", Sun.Irradiance, Sun.Direction.x, Sun.Direction.y, Sun.Direction.z, Sun.AngularDiameter,
 	    Sky.x, Sky.y, Sky.z);
 	Key += Options.bNoSceneLights ? "no scene lights\n" : "";
-	for (const char* Name :
-	    {"r.RT.Material.Override", "r.RT.AlphaTest", "r.RT.Lights.Shadows.Point", "r.RT.Lights.Shadows.Spot", "r.RT.Lights.Shadows.Rect"})
+	for (const char* Name : {"r.RT.Material.Override", "r.RT.AlphaTest", "r.RT.GI.Toon", "r.RT.Lights.Shadows.Point",
+	         "r.RT.Lights.Shadows.Spot", "r.RT.Lights.Shadows.Rect"})
 	{
 		Key += std::string(Name) + '=' + FConsoleVariables::ToString(FConsoleVariables::Get().Find(Name)->GetValue()) + '\n';
 	}

@@ -152,10 +152,10 @@ float EmissiveAreaPdf(FSceneConstants Scene, float EmissiveWeight)
 	return Scene.EmissiveClusterCount > 0u ? EmissiveWeight / max(FEmissivePowerRef(Scene.EmissivePowers).Header.Power, 1.0e-30) : 0.0;
 }
 
-// bWithOther: BRDF sampling finds emitters as well. U: a point of the triangle, a cluster and a triangle of it. Shows: SHOWS_….
+// Casters: what hides emitters. bWithOther: BRDF sampling finds emitters as well. U: a point of the triangle, a cluster and a triangle of it. Shows: SHOWS_….
 // ToLight: gets the direction, which means nothing where the result is 0.
-vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec4 U, bool bWithOther,
-                    uint Shows, out vec3 ToLight)
+vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, uint Casters, vec4 U,
+                    bool bWithOther, uint Shows, out vec3 ToLight)
 {
 	ToLight = Ng;
 	if (Scene.EmissiveClusterCount == 0u) { return vec3(0.0); } // emitters exist, but are not listed
@@ -191,7 +191,7 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 #endif
 	// The shadow ray stops short of the emitter, the more so the more grazing it arrives.
 	float Margin = PositionError(Point, Scene.ObjectReach, Distance) / max(CosAtLight, 0.1);
-	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, LocalCasters(bCharacter), P, ToLight, max(Distance - Margin, 0.0))) { return vec3(0.0); }
+	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, Casters, P, ToLight, max(Distance - Margin, 0.0))) { return vec3(0.0); }
 	float ToSolidAngle = DistanceSquared / CosAtLight;
 	float Pdf = Chance * 2.0 / Doubled * ToSolidAngle;
 	if (!bWithOther) { return BrdfCos * Emission / Pdf; }
@@ -202,14 +202,14 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec4 U, uint Shows)
 {
 	vec3 ToLight;
-	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, true, Shows, ToLight);
+	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, LocalCasters(bCharacter), U, true, Shows, ToLight);
 }
 
 // Without a BRDF sample that shares its work.
 vec3 SampleEmissiveAlone(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec4 U)
 {
 	vec3 ToLight;
-	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, false, SHOWS_NOTHING, ToLight);
+	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, LocalCasters(bCharacter), U, false, SHOWS_NOTHING, ToLight);
 }
 #endif
 

@@ -243,8 +243,9 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	vec4 LightSample = NextRandom4(Random);
 	if (EmissionShare > 0.0 && (Specular <= 0.0 || !IsMirror(Lobe)))
 	{
-		Gathered.Emission =
-		    EmissionShare * SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, LightSample, true, Shows, Gathered.EmissionDirection);
+		uint Casters = GatherMask == MASK_VISIBLE ? LocalCasters(false) : GatherMask; // as the path itself sees it
+		Gathered.Emission = EmissionShare * SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, Casters, LightSample, true, Shows,
+		                                                   Gathered.EmissionDirection);
 	}
 #endif
 #ifdef MIXED_DIRECTIONS

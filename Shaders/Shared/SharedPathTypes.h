@@ -25,8 +25,10 @@ struct FSharedPathConstants
 	uint Depth, Normals; // sampled indices
 	uint BaseColor, Material; // sampled indices, where there is a second lobe
 	uint Output, SecondOutput; // storage indices
+	uint ToonPixels;           // sampled index of what ToonSurface.comp writes, or NO_TEXTURE
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSharedPathConstants, 48);
+LANTERN_ASSERT_SIZE(FSharedPathConstants, 56);
 
 LANTERN_SHARED_END
 

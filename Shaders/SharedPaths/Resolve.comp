@@ -36,8 +36,15 @@ const float Alone = 0.75;          // sum of squared weights from which on one s
 shared vec3 SitePlaces[Sites];  // relative to the camera
 shared uint SiteNormals[Sites]; // shading, octahedral
 shared uint SiteFaces[Sites];   // geometric, octahedral; NoNormal: the site shows no surface
-shared uint SitePixels[Sites];  // y << 16 | x
+shared uint SitePixels[Sites];  // SphereBit | y << 16 | x
 shared FSharedPath SitePaths[Sites];
+
+// Paths that leave a toon sphere do not see what others see: see ChooseGatherMask.
+const uint SphereBit = 0x80000000u;
+uint SphereOf(ivec2 Pixel)
+{
+	return Push.ToonPixels != NO_TEXTURE && texelFetch(Textures[Push.ToonPixels], Pixel, 0).x > 0.0 ? SphereBit : 0u;
+}
 
 void LoadSites(FViewConstants View)
 {
@@ -54,7 +61,7 @@ void LoadSites(FViewConstants View)
 		SitePlaces[I] = Point.Relative;
 		SiteNormals[I] = PackOct(Point.BentN);
 		SiteFaces[I] = PackOct(Point.Ng);
-		SitePixels[I] = (Pixel.y << 16u) | Pixel.x;
+		SitePixels[I] = SphereOf(ivec2(Pixel)) | (Pixel.y << 16u) | Pixel.x;
 		SitePaths[I] = FSharedPathRef(Push.Shared).Data[Thread.y * Threads.x + Thread.x];
 	}
 }
@@ -65,7 +72,7 @@ int SiteAt(ivec2 InTile, int Neighbor)
 	return Site.y * Side.x + Site.x;
 }
 
-vec2 StepTo(int Site) { return vec2(SitePixels[Site] & 0xffffu, SitePixels[Site] >> 16u) - vec2(gl_GlobalInvocationID.xy); }
+vec2 StepTo(int Site) { return vec2(SitePixels[Site] & 0xffffu, (SitePixels[Site] >> 16u) & 0x7fffu) - vec2(gl_GlobalInvocationID.xy); }
 
 // Weights of the sites whose paths may stand for a pixel: those on its plane. What lies alone on its plane takes what there is.
 struct FSites
@@ -75,14 +82,14 @@ struct FSites
 	int Numbers[Around];
 };
 
-// Returns the site of the tile and its ring that is nearest to the pixel; -1: none shows a surface.
-int FindNearest()
+// Returns the site of the tile and its ring that is nearest to the pixel; -1: none shows a surface that sees what the pixel sees.
+int FindNearest(uint Sphere)
 {
 	int Nearest = -1;
 	float Least = 1.0e9;
 	for (int Site = 0; Site < Sites; ++Site)
 	{
-		if (SiteFaces[Site] == NoNormal) { continue; }
+		if (SiteFaces[Site] == NoNormal || (SitePixels[Site] & SphereBit) != Sphere) { continue; }
 		vec2 Step = StepTo(Site);
 		if (dot(Step, Step) >= Least) { continue; }
 		Least = dot(Step, Step);
@@ -95,13 +102,14 @@ FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
 {
 	const float Deviation = 0.75; // of a pixel's kernel, in pitches
 	float Slack = 0.25 * PixelHeight(View, dot(View.CameraForward, Point.Relative)), Sum = 0.0, SumOfOthers = 0.0;
+	uint Sphere = SphereOf(ivec2(gl_GlobalInvocationID.xy));
 	FSites Found;
 	float Others[Around];
 	for (int I = 0; I < Around; ++I)
 	{
 		int Site = Found.Numbers[I] = SiteAt(InTile, I);
 		Found.Weights[I] = Others[I] = 0.0;
-		if (SiteFaces[Site] == NoNormal) { continue; }
+		if (SiteFaces[Site] == NoNormal || (SitePixels[Site] & SphereBit) != Sphere) { continue; }
 		vec2 Step = StepTo(Site) / vec2(Pitch);
 		float Kernel = exp(-dot(Step, Step) / (2.0 * Deviation * Deviation));
 		vec3 To = SitePlaces[Site] - Point.Relative;
@@ -113,7 +121,7 @@ FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
 	}
 	if (SumOfOthers == 0.0) // a wire before the sky
 	{
-		int Nearest = FindNearest();
+		int Nearest = FindNearest(Sphere);
 		if (Nearest >= 0)
 		{
 			Found.Numbers[0] = Nearest;

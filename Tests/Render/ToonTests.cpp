@@ -126,6 +126,18 @@ TEST_F(FToonTest, OthersKeepTheirBits)
 		for (uint32_t X = Size / 2; X < Size; ++X) { ASSERT_EQ(At(Styled, X, Y), At(Plain, X, Y)) << X << " " << Y; }
 	}
 	EXPECT_NE(At(Styled, 4, 12), At(Plain, 4, 12));
+	// Paths that pixels share stop at the border, which changes the noise beside it.
+	constexpr uint32_t Beside = 6;
+	SetVariable("r.RT.GI", "3");
+	const FImage PlainShared = RenderSignal(ESignal::DiffuseGI, SeePlates());
+	GetScene().GetScene().SetToon(GetScene().GetDraws()[0].Object, std::make_shared<const FToonStyle>(Style));
+	SetVariable("r.RT.GI.Toon", "1");
+	const FImage StyledShared = RenderSignal(ESignal::DiffuseGI, SeePlates());
+	EXPECT_NE(At(StyledShared, 4, 12), At(PlainShared, 4, 12));
+	for (uint32_t Y = 0; Y < Size; ++Y)
+	{
+		for (uint32_t X = Size / 2 + Beside; X < Size; ++X) { ASSERT_EQ(At(StyledShared, X, Y), At(PlainShared, X, Y)) << X << " " << Y; }
+	}
 }
 
 class FToonNumberTest : public FMotionTestBase

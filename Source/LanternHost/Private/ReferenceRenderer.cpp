@@ -188,7 +188,8 @@ FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint3
 /// After the state is saved, whose sum more samples may join.
 FRTStatus FReferenceJob::Grade()
 {
-	if (!Settings.bRasterSurfaces || !IsReferenceGraded(Engine.GetScene().GetScene().GetFacts(), Settings.Signal))
+	FConsoleVariables::Get().BeginFrame(); // of a state that was complete, no frame has been traced
+	if (!Settings.bRasterSurfaces || !IsReferenceGraded(Engine.GetScene().GetScene().RefreshFacts(), Settings.Signal))
 	{
 		return FRTStatus::Success();
 	}

@@ -148,6 +148,10 @@ FContentHash MakeKey(FSampleEngine& Engine, const FSignalReferenceDesc& Desc)
 	if (Features.bReferenceFromGBuffer)
 	{
 		if (IsReferenceGraded(Scene.GetFacts(), Desc.Signal)) { Hash.Add(Desc.View.Exposure); }
+		for (const FShaderSource& Source : ListReferenceComputeShaders(Scene.GetFacts(), Desc.Signal))
+		{
+			Hash.AddText(Engine.GetRenderer().GetCompiler().GetKey(Source));
+		}
 		FShaderCompiler& Compiler = Engine.GetRenderer().GetCompiler();
 		Hash.AddText(Compiler.GetKey({"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}}));
 		Hash.AddText(Compiler.GetKey({"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}}));

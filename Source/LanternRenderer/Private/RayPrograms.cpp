@@ -160,7 +160,7 @@ FRayPrograms ChooseRayPrograms(
 		    GetReferencePath(Features.ReferenceSignal));
 		if (Features.bReferenceFromGBuffer)
 		{
-			ListReferenceShaders(Scene.GetFacts(), Features.ReferenceSignal, Programs.Compute);
+			Programs.Compute = ListReferenceComputeShaders(Scene.GetFacts(), Features.ReferenceSignal);
 			Programs.bMotion = Scene.GetFacts().bLightChannels || Scene.GetFacts().bToon; // it names the pixels' objects
 		}
 	}

@@ -94,6 +94,26 @@ TEST_F(FCasterChangesSceneTest, ChannelsChangeLightAnywhere)
 	EXPECT_FALSE(Scene->GetFacts().bLightChannels) << "there is no light";
 }
 
+TEST_F(FCasterChangesSceneTest, StylesThatTurnNormalsAreChanges)
+{
+	FToonStyle Style;
+	const auto Set = [&] { Scene->SetToon(Object, std::make_shared<const FToonStyle>(Style)); };
+	Set();
+	EXPECT_EQ(Count(), 1);
+	Style.Center.y = 1.0f;
+	Style.MaxValue = 0.1f;
+	Set();
+	EXPECT_EQ(Count(), 0) << "a head that moves, and limits, which act behind filters";
+	Style.Bend = 0.5f;
+	Set();
+	EXPECT_EQ(Count(), 1);
+	Style.SphereWeight = 1.0f;
+	Set();
+	EXPECT_EQ(Count(), 1);
+	Scene->SetToon(Object, nullptr);
+	EXPECT_EQ(Count(), 1);
+}
+
 TEST_F(FCasterChangesSceneTest, TellsWhereAnObjectWasAndIs)
 {
 	EXPECT_EQ(Count(), 0) << "nothing moved";

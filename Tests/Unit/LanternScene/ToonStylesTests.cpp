@@ -98,8 +98,13 @@ TEST_F(FToonStylesTest, ANumberIsThatOfTheLastOneThatGotIt)
 	Scene->SetToon(Objects[1], Make(0.5f, 9));
 	EXPECT_EQ(FindBendOfNumber(9), 0.5f);
 	EXPECT_EQ(FindBendOfNumber(8), -1.0f);
+	Scene->SetToon(Objects[0], Make(0.25f, 9));
+	EXPECT_EQ(FindBendOfNumber(9), 0.25f) << "set last, though unchanged";
+	Scene->SetToon(Objects[2], Make(0.75f, 9));
+	Scene->SetToon(Objects[2], nullptr);
+	EXPECT_EQ(FindBendOfNumber(9), 0.25f) << "the one before has it again";
 	Scene->SetToon(Objects[0], nullptr);
-	EXPECT_EQ(FindBendOfNumber(9), 0.5f) << "it was not the first one's any more";
+	EXPECT_EQ(FindBendOfNumber(9), 0.5f);
 	Scene->SetToon(Objects[1], Make(0.5f, 255));
 	EXPECT_EQ(FindBendOfNumber(9), -1.0f);
 	EXPECT_EQ(FindBendOfNumber(255), 0.5f);

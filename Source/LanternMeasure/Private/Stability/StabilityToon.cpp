@@ -97,7 +97,7 @@ FRTStatus MeasureToonEdge(FStabilityStage& Stage, std::vector<FStabilityFigure>&
 	if (FRTStatus S = Stage.GetReference(Shots[0].View, 0.0, Reference); !S) { return S; }
 	for (const size_t At : {size_t(0), Count - 1}) { Stage.AddToStrip(Frames[At], Reference.Mean); }
 	const double Seconds = double(Count - 1) / FramesPerSecond;
-	Out.push_back({"flips per second and edge pixel", double(Flips) / (double(CountPixels(Edges)) * Seconds), 0.5});
+	Out.push_back({"flips per second and edge pixel", double(Flips) / (double(std::max<uint64_t>(CountPixels(Edges), 1)) * Seconds), 0.5});
 	Out.push_back({"light of styled objects over the reference", MeanOver(MeanImage(Frames), Styled) / MeanOver(Reference.Mean, Styled),
 	    std::nullopt});
 	return FRTStatus::Success();

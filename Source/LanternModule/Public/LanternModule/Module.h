@@ -128,7 +128,8 @@ enum class ERTModuleMobility : uint8_t
 	Movable,    ///< moves or deforms; a host's shadow map may leave it to rays
 };
 
-/// How diffuse indirect light falls on an object of a stylised look. Other light, and what the object sends to others, stay as they are.
+/// How diffuse indirect light falls on an object of a stylised look. ESignal::RoughSpecular has its normals as well. Other light, and what
+/// the object sends to others, stay as they are.
 /// The light of a pixel is taken in these steps: its normal turns to that of a sphere, and then to the camera. Light is gathered about it.
 /// Saturation and value of the light are limited, its hue is kept. The tint colours it, without a change of its luminance.
 struct FRTModuleToon
@@ -141,8 +142,8 @@ struct FRTModuleToon
 	float MaxSaturation = 0.5f; ///< of the light: 1 - least / greatest component. 0 to 1, which is no limit
 	/// Greatest component that a white surface shows, in units of the picture's white; ≥ 0. 0: no limit. Needs FRTModuleFrame::Exposure.
 	float MaxValue = 0.8f;
-	/// By how much the engine's lighting darkens the light by ambient occlusion, 0 to 1. Above 0, ambient occlusion is traced if it is
-	/// wanted, also beside diffuse global illumination. The engine's lighting applies it.
+	/// By how much the sample engine's lighting darkens the light by ambient occlusion, 0 to 1. An engine does so by itself, with
+	/// ESignal::AmbientOcclusion.
 	float Occlusion = 0.0f;
 	float Tint[3] = {1, 1, 1}; ///< such as (1, 0.93, 0.88) for skin; ≥ 0, not black
 	/// 1 to 255: FRTModuleFrame::ToonNumbers names the object by it, as a custom stencil does. 0: nothing names it, and it has no effect.

@@ -33,10 +33,12 @@ std::string GetReferencePath(ESignal Signal)
 	return Signal == ESignal::Frame ? "Reference/PathTrace.rgen" : MakeShaderPath(Signal, "Reference.rgen");
 }
 
-void ListReferenceShaders(const FSceneFacts& Facts, ESignal Signal, std::vector<FShaderSource>& Out)
+std::vector<FShaderSource> ListReferenceComputeShaders(const FSceneFacts& Facts, ESignal Signal)
 {
+	std::vector<FShaderSource> Out;
 	if (Facts.bLightChannels) { Out.push_back(MakePixelChannelsSource()); }
 	if (IsStyled(Signal)) { ListToonShaders(Facts, true, Out); }
+	return Out;
 }
 
 bool IsReferenceGraded(const FSceneFacts& Facts, ESignal Signal)

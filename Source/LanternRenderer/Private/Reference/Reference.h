@@ -10,7 +10,5 @@ namespace Lantern
 FPassRays ChooseReferenceRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, ESignal Signal, bool bFromGBuffer);
 /// Names the ray generation shader: a signal's lies in its own folder, <Pass>/<Pass>Reference.rgen.
 std::string GetReferencePath(ESignal Signal);
-/// Lists the compute shaders of a reference at the surfaces that the raster saw.
-void ListReferenceShaders(const FSceneFacts& Facts, ESignal Signal, std::vector<FShaderSource>& Out);
 
 } // namespace Lantern

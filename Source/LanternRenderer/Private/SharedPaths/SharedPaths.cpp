@@ -46,15 +46,18 @@ float GetNearPixels() { return CVarNear.GetOnRenderThread(); }
 void AddPathResolve(FFrameContext& Context, const FGBuffer& GBuffer, const FSharedPaths& Shared, FGraphTexture Output, FGraphTexture Second)
 {
 	const FFrameContext* const Frame = &Context;
+	const FGraphTexture Toon = Context.Toon.Pixels;
 	Context.Graph.AddPass("PathResolve", [&](FPassBuilder& Builder) -> FPassExecute {
 		DeclareLobePixels(Builder, GBuffer, {Output, Second});
 		Builder.Read(Shared.Fresh, ERTAccess::ShaderRead);
+		if (Toon.IsValid()) { Builder.Read(Toon, ERTAccess::ShaderRead); }
 		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FSharedPathConstants C{};
 			C.Pass = Frame->Pass;
 			C.Shared = GetAddress(Pass, Shared.Fresh);
+			C.ToonPixels = GetSampledIndex(Pass, Toon);
 			SetLobePixels(Pass, GBuffer, {Output, Second}, C);
 			Dispatch2D(Pass, Shared.Resolve, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};

@@ -19,7 +19,7 @@ FShaderSource MakeGradeSource(bool bReference)
 {
 	FShaderDefines Defines;
 	if (bReference) { Defines.emplace_back("REFERENCE", "1"); }
-	if (!CVarKnee.GetOnRenderThread()) { Defines.emplace_back("NO_TOON_KNEE", "1"); }
+	if (!bReference && !CVarKnee.GetOnRenderThread()) { Defines.emplace_back("NO_TOON_KNEE", "1"); }
 	return MakeComputeSource("Toon/ToonGrade.comp", std::move(Defines));
 }
 

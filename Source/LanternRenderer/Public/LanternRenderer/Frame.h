@@ -81,6 +81,8 @@ struct FReferencePassInputs
 /// Adds samples of FFrameFeatures::ReferenceSignal. A signal of one channel has its value in all three. Sky pixels: visibilities
 /// are 1, radiances 0.
 void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs);
+/// Lists the compute shaders of a reference with bReferenceFromGBuffer, beside those of its G-buffer.
+std::vector<FShaderSource> ListReferenceComputeShaders(const FSceneFacts& Facts, ESignal Signal);
 /// Whether the sum of all samples is not yet the signal: some of it is no mean of samples (FToonStyle). Needs bReferenceFromGBuffer.
 bool IsReferenceGraded(const FSceneFacts& Facts, ESignal Signal);
 /// Makes the signal of the sum, in a frame of its own with the same features. Does nothing if IsReferenceGraded is false.

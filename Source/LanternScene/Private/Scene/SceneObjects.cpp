@@ -43,6 +43,12 @@ double GetStretch(const glm::dmat4& Transform)
 	return std::sqrt(Largest);
 }
 
+/// Whether light about the normals of one style may stand for that about those of the other. Null: there is none.
+bool GathersAlike(const FToonStyle* A, const FToonStyle* B)
+{
+	return A && B ? A->SphereWeight == B->SphereWeight && A->Bend == B->Bend : A == B;
+}
+
 bool HasSphere(const FRTObjectInfo& Info) { return Info.Toon && Info.Toon->SphereWeight > 0.0f; }
 
 uint32_t IsOffChannel(uint8_t Channels) { return (Channels & CHANNELS_DEFAULT) == 0 ? 1 : 0; }
@@ -167,9 +173,11 @@ void FSceneObjects::SetToon(FRTObjectId Id, std::shared_ptr<const FToonStyle> St
 {
 	FObject& Object = Resolve(Id);
 	const bool bSphere = HasSphere(Object.Info);
-	Object.Info.Toon = std::move(Style);
+	const std::shared_ptr<const FToonStyle> Before = std::exchange(Object.Info.Toon, std::move(Style));
 	Toons.Set(Id.Index, Object.Info.Toon.get(), GetSlotCount());
 	if (HasSphere(Object.Info) != bSphere) { Place(Id.Index); } // another mask
+	// The centre may follow a bone in each frame, and limits act behind the filter.
+	if (!GathersAlike(Before.get(), Object.Info.Toon.get())) { NoteCaster(Id.Index, 1.0); }
 }
 
 /// The table begins with the first object that needs it. It has all objects then: shaders look up any.

@@ -31,7 +31,7 @@ void FToonStyles::Set(uint32_t Object, const FToonStyle* Style, uint32_t SlotCou
 	}
 	const bool bNew = Found == OfObject.end();
 	const uint32_t Slot = bNew ? Styles.Take(TSlots<FToonStyle>::None) : Found->second;
-	if (!bNew && Styles[Slot] == *Style) { return; } // engines may set all styles in each frame
+	if (!bNew && Styles[Slot] == *Style) { return GiveNumber(Slot, Style->Number); } // engines may set all styles in each frame
 	Take(Object, Slot, *Style);
 	Cover(SlotCount);
 }
@@ -50,7 +50,7 @@ void FToonStyles::Take(uint32_t Object, uint32_t Slot, const FToonStyle& Style)
 	Styles[Slot] = Style;
 	StyleTable.Set(Slot, ToData(Object, Style));
 	ObjectTable.Set(Object, Slot + 1);
-	if (Style.Number != 0) { GiveNumber(Slot, Style.Number); }
+	GiveNumber(Slot, Style.Number);
 }
 
 void FToonStyles::Drop(uint32_t Object)
@@ -65,19 +65,27 @@ void FToonStyles::Drop(uint32_t Object)
 }
 
 /// The table begins with the first number.
+void FToonStyles::WriteNumber(uint8_t Number)
+{
+	if (NumberTable.Num() == 0) { NumberTable.Set(static_cast<uint32_t>(Holders.size()) - 1, 0); }
+	NumberTable.Set(Number, Holders[Number].empty() ? 0 : Holders[Number].back() + 1);
+}
+
 void FToonStyles::GiveNumber(uint32_t Slot, uint8_t Number)
 {
-	Holders[Number] = Slot + 1;
-	if (NumberTable.Num() == 0) { NumberTable.Set(static_cast<uint32_t>(Holders.size()) - 1, 0); }
-	NumberTable.Set(Number, Slot + 1);
+	std::vector<uint32_t>& Of = Holders[Number];
+	if (Number == 0 || (!Of.empty() && Of.back() == Slot)) { return; }
+	std::erase(Of, Slot);
+	Of.push_back(Slot);
+	WriteNumber(Number);
 }
 
 void FToonStyles::LoseNumber(uint32_t Slot)
 {
 	const uint8_t Number = Styles[Slot].Number;
-	if (Number == 0 || Holders[Number] != Slot + 1) { return; } // another one has it
-	Holders[Number] = 0;
-	NumberTable.Set(Number, 0);
+	if (Number == 0) { return; }
+	std::erase(Holders[Number], Slot);
+	WriteNumber(Number);
 }
 
 void FToonStyles::FillConstants(FSceneConstants& Out) const

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <unordered_map>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -14,7 +15,8 @@
 namespace Lantern
 {
 
-/// How diffuse indirect light falls on an object of a stylised look. Direct light, and what the object sends to others, stay as they are.
+/// How diffuse indirect light falls on an object of a stylised look. The signal of rough specular lobes has its normals as well. Direct
+/// light, and what the object sends to others, stay as they are.
 /// The light of a pixel is taken in these steps:
 /// - its normal turns to that of the sphere, then to the camera;
 /// - light is gathered about that normal;
@@ -65,10 +67,11 @@ private:
 	void Drop(uint32_t Object);
 	void GiveNumber(uint32_t Slot, uint8_t Number);
 	void LoseNumber(uint32_t Slot);
+	void WriteNumber(uint8_t Number);
 
 	std::unordered_map<uint32_t, uint32_t> OfObject; // slot of its style
 	TSlots<FToonStyle> Styles;
-	std::array<uint32_t, 256> Holders{}; // by number: the style's slot + 1
+	std::array<std::vector<uint32_t>, 256> Holders; // by number: slots of styles, the last one that got it at the end
 	uint32_t Occluded = 0;
 	TGpuTable<FToonData> StyleTable{"ToonStyles"};
 	TGpuTable<uint32_t> ObjectTable{"ObjectToons"};
