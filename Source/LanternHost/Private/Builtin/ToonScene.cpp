@@ -163,7 +163,6 @@ FSceneDescription BuildToonScene(bool bStyled)
 	AddFigure(Builder, "first", {{-0.42f, 0, -0.75f}, 0.25f, {{0.9f, 0.62f, 0.2f}, {0.2f, 0.34f, 0.62f}, {0.86f, 0.82f, 0.7f}}}, bStyled);
 	AddFigure(Builder, "second", {{0.5f, 0, -0.95f}, -0.2f, {{0.5f, 0.62f, 0.86f}, {0.72f, 0.2f, 0.28f}, {0.9f, 0.86f, 0.8f}}}, bStyled);
 	Builder.AddCamera({0.1, 1.35, 1.45}, {0.03, 1.15, -0.9}, 40);
-	Builder.AddCamera({-0.3, 1.46, 0.1}, {-0.42, 1.4, -0.75}, 35);
 	// The sun stands behind the back wall: it lights the ground in front, and that the figures.
 	Builder.SetLight(glm::normalize(glm::vec3(-0.5f, -1.0f, 0.55f)), 12.0f, {0.25f, 0.35f, 0.5f});
 	Builder.Scene.DefaultExposure = 0.0f;

@@ -6,7 +6,7 @@
 namespace Lantern::Builtin
 {
 
-/// Has a camera on both figures, and one on the first one's face. bStyled: if false, the objects have no toon styles.
+/// bStyled: if false, the objects have no toon styles.
 FSceneDescription BuildToonScene(bool bStyled);
 
 } // namespace Lantern::Builtin
