@@ -4,6 +4,7 @@
 
 #include "../Shared/SceneTypes.h"
 #include "Bindings.glsl"
+#include "HostNumbers.glsl"
 
 // bCharacter: the surface is a character's. Raster shadow maps hold characters apart for this: faces have no self-shadow.
 uint SunCasters(bool bCharacter) { return bCharacter ? MASK_SUN_CASTERS & ~MASK_CHARACTER : MASK_SUN_CASTERS; }
@@ -20,11 +21,7 @@ bool IsCharacterPixel(FSceneConstants Scene, uint Classes, uint ClassesOffset, u
 #ifdef ONE_RECEIVER // r.RT.Debug.Shadow.Receivers
 	return false;
 #endif
-	if (Classes != NO_TEXTURE)
-	{
-		ivec2 Texel = Pixel + ivec2(ClassesOffset & 0xffffu, ClassesOffset >> 16u);
-		return (uint(round(texelFetch(Textures[Classes], Texel, 0).x * 255.0)) & CLASS_CHARACTER) != 0u;
-	}
+	if (Classes != NO_TEXTURE) { return (LoadHostNumber(Classes, ClassesOffset, Pixel) & CLASS_CHARACTER) != 0u; }
 	if (Motion == NO_TEXTURE) { return false; }
 	float Object = texelFetch(Textures[Motion], Pixel, 0).w;
 	return Object >= 1.0 && (FObjectRef(Scene.Objects).Data[uint(Object) - 1u].Flags & OBJECT_CHARACTER) != 0u;

@@ -1,6 +1,7 @@
 // Writes the channels of the object that each pixel shows.
 #version 460
 #include "../Shared/PixelChannelsTypes.h"
+#include "../Library/HostNumbers.glsl"
 #include "../Library/ObjectChannels.glsl"
 
 layout(local_size_x = PIXEL_CHANNELS_GROUP_SIZE, local_size_y = PIXEL_CHANNELS_GROUP_SIZE) in;
@@ -8,11 +9,7 @@ layout(push_constant, scalar) uniform FPush { FPixelChannelsConstants Push; };
 
 uint FindChannels(FSceneConstants Scene, ivec2 Pixel)
 {
-	if (Push.Host != NO_TEXTURE)
-	{
-		ivec2 Texel = Pixel + ivec2(Push.HostOffset & 0xffffu, Push.HostOffset >> 16u);
-		return uint(round(texelFetch(Textures[Push.Host], Texel, 0).x * 255.0));
-	}
+	if (Push.Host != NO_TEXTURE) { return LoadHostNumber(Push.Host, Push.HostOffset, Pixel); }
 	float Object = texelFetch(Textures[Push.Motion], Pixel, 0).w;
 	return Object >= 1.0 ? LoadObjectChannels(Scene, uint(Object) - 1u) : CHANNELS_DEFAULT;
 }

@@ -152,7 +152,8 @@ float EmissiveAreaPdf(FSceneConstants Scene, float EmissiveWeight)
 	return Scene.EmissiveClusterCount > 0u ? EmissiveWeight / max(FEmissivePowerRef(Scene.EmissivePowers).Header.Power, 1.0e-30) : 0.0;
 }
 
-// Casters: what hides emitters. bWithOther: BRDF sampling finds emitters as well. U: a point of the triangle, a cluster and a triangle of it. Shows: SHOWS_….
+// Casters: what hides emitters. bWithOther: BRDF sampling finds emitters as well. U: a point of the triangle, a cluster and a triangle of it.
+// Shows: SHOWS_….
 // ToLight: gets the direction, which means nothing where the result is 0.
 vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, uint Casters, vec4 U,
                     bool bWithOther, uint Shows, out vec3 ToLight)

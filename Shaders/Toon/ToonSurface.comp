@@ -2,6 +2,7 @@
 #version 460
 #include "../Shared/ToonTypes.h"
 #include "../Library/GBuffer.glsl"
+#include "../Library/HostNumbers.glsl"
 #include "../Library/ObjectPosition.glsl"
 #include "../Library/Toon.glsl"
 
@@ -15,8 +16,7 @@ uint FindToon(FSceneConstants Scene, ivec2 Pixel)
 	if (Push.Numbers != NO_TEXTURE)
 	{
 		if (Scene.ToonNumbers == FAddress(0)) { return 0u; }
-		ivec2 Texel = Pixel + ivec2(Push.NumbersOffset & 0xffffu, Push.NumbersOffset >> 16u);
-		return FToonNumberRef(Scene.ToonNumbers).Data[uint(round(texelFetch(Textures[Push.Numbers], Texel, 0).x * 255.0))];
+		return FToonNumberRef(Scene.ToonNumbers).Data[LoadHostNumber(Push.Numbers, Push.NumbersOffset, Pixel)];
 	}
 	float Object = texelFetch(Textures[Push.Motion], Pixel, 0).w;
 	return Object >= 1.0 ? FToonNumberRef(Scene.ObjectToons).Data[uint(Object) - 1u] : 0u;

@@ -20,6 +20,14 @@ protected:
 		FModuleTest::SetUp();
 		ASSERT_OK(SetSun(-1.0));
 	}
+	FRTModuleObject MakePlaced()
+	{
+		FRTModuleObject Placed;
+		Placed.Mesh = AddOpaqueMesh();
+		Placed.Materials = &Solid;
+		Placed.MaterialCount = 1;
+		return Placed;
+	}
 	FLightData Read(uint32_t Slot)
 	{
 		const FSceneConstants Constants = ReadConstants(DescribeFrame());
@@ -139,11 +147,7 @@ TEST_F(FModuleLightTest, ProfilesComeAndGo)
 TEST_F(FModuleLightTest, ChannelsReachTheScene)
 {
 	ERTObjectHandle Thing = ERTObjectHandle::None;
-	FRTModuleObject Placed;
-	Placed.Mesh = AddOpaqueMesh();
-	Placed.Materials = &Solid;
-	Placed.MaterialCount = 1;
-	ASSERT_OK(Renderer->AddObject(Placed, &Thing));
+	ASSERT_OK(Renderer->AddObject(MakePlaced(), &Thing));
 	FRTModuleLight Lamp;
 	ERTLightHandle Handle = ERTLightHandle::None;
 	ASSERT_OK(Renderer->AddLight(Lamp, &Handle));
@@ -164,11 +168,7 @@ TEST_F(FModuleLightTest, ChannelsReachTheScene)
 TEST_F(FModuleLightTest, ToonStylesReachTheScene)
 {
 	ERTObjectHandle Thing = ERTObjectHandle::None;
-	FRTModuleObject Placed;
-	Placed.Mesh = AddOpaqueMesh();
-	Placed.Materials = &Solid;
-	Placed.MaterialCount = 1;
-	ASSERT_OK(Renderer->AddObject(Placed, &Thing));
+	ASSERT_OK(Renderer->AddObject(MakePlaced(), &Thing));
 	EXPECT_EQ(ReadConstants(DescribeFrame()).ToonStyles, 0u);
 	FRTModuleToon Toon;
 	Toon.Center[1] = 150.0f;
@@ -197,10 +197,7 @@ TEST_F(FModuleLightTest, ToonStylesReachTheScene)
 TEST_F(FModuleLightTest, WrongToonStylesAreNamed)
 {
 	const float Nan = std::numeric_limits<float>::quiet_NaN();
-	FRTModuleObject Placed;
-	Placed.Mesh = AddOpaqueMesh();
-	Placed.Materials = &Solid;
-	Placed.MaterialCount = 1;
+	FRTModuleObject Placed = MakePlaced();
 	const auto Refuse = [&](auto&& Change, const char* Says) {
 		FRTModuleToon Toon;
 		Change(Toon);
