@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "LanternCore/Config/Config.h"
 #include "LanternCore/Tasks/TaskTrace.h"
@@ -258,7 +259,7 @@ FView FSession::MakeView(const FPictureOptions& Options) const
 	return View;
 }
 
-std::string FSession::MakeSceneKey(const FPictureOptions& Options) const
+std::string FSession::MakeSceneKey(const FPictureOptions& Options, ESignal Signal) const
 {
 	std::error_code Error;
 	std::string Key = fs::weakly_canonical(Options.Scene, Error).string() + '\n';
@@ -273,10 +274,12 @@ std::string FSession::MakeSceneKey(const FPictureOptions& Options) const
 	Key += fmt::format("{} {} {} {} {} {} {} {}\n", Sun.Irradiance, Sun.Direction.x, Sun.Direction.y, Sun.Direction.z, Sun.AngularDiameter,
 	    Sky.x, Sky.y, Sky.z);
 	Key += Options.bNoSceneLights ? "no scene lights\n" : "";
-	for (const char* Name : {"r.RT.Material.Override", "r.RT.AlphaTest", "r.RT.GI.Toon", "r.RT.Lights.Shadows.Point",
-	         "r.RT.Lights.Shadows.Spot", "r.RT.Lights.Shadows.Rect"})
+	std::istringstream Names(std::string("r.RT.Material.Override r.RT.AlphaTest r.RT.Lights.Shadows.Point r.RT.Lights.Shadows.Spot "
+	                                     "r.RT.Lights.Shadows.Rect ") +
+	                         GetSignalInfo(Signal).ReferenceVariables);
+	for (std::string Name; Names >> Name;)
 	{
-		Key += std::string(Name) + '=' + FConsoleVariables::ToString(FConsoleVariables::Get().Find(Name)->GetValue()) + '\n';
+		Key += Name + '=' + FConsoleVariables::ToString(FConsoleVariables::Get().Find(Name)->GetValue()) + '\n';
 	}
 	return Key;
 }

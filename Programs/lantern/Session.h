@@ -33,8 +33,8 @@ public:
 	IRTDevice& GetDevice() { return *Device; }
 	FSampleEngine& GetEngine() { return *Engine; }
 	FView MakeView(const FPictureOptions& Options) const;
-	/// Names scene, light and console variables: what a picture depends on beside its view.
-	std::string MakeSceneKey(const FPictureOptions& Options) const;
+	/// Names scene, light and console variables: what a reference of Signal depends on beside its view.
+	std::string MakeSceneKey(const FPictureOptions& Options, ESignal Signal) const;
 	double GetLoadSeconds() const { return LoadSeconds; }
 
 private:

@@ -299,7 +299,7 @@ int RunReference(FReferenceOptions Options)
 	Settings.StateFile = Options.bResume ? Options.Picture.Output + ".state" : "";
 	Settings.bResume = Options.bResume;
 	Settings.StateSeconds = Options.SaveSeconds;
-	Settings.SceneKey = Session.MakeSceneKey(Options.Picture);
+	Settings.SceneKey = Session.MakeSceneKey(Options.Picture, Settings.Signal);
 	Settings.Progress = [&](double Done, uint32_t Total, double Left) {
 		Progress.Show("reference", Done / Total, fmt::format("{:.1f} of {} samples, {} left", Done, Total, FormatSeconds(Left)));
 	};
