@@ -48,6 +48,7 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	uint ObjectFlags = FObjectRef(Scene.Objects).Data[Place.Object].Flags;
 	Hit.Flags = (bCulledSide ? HIT_CULLED_SIDE : 0u) | ((ObjectFlags & OBJECT_CHARACTER) != 0u ? HIT_CHARACTER : 0u);
 	Hit.Channels = LoadObjectChannels(Scene, Place.Object);
+	Hit.Object = Place.Object;
 	const uint Foliage = SECTION_MASKED | SECTION_DOUBLE_SIDED;
 	if ((Section.Flags & Foliage) == Foliage) { Hit.Flags |= HIT_FOLIAGE; }
 	return Hit;

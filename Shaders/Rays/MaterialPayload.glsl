@@ -1,10 +1,11 @@
-// The payload of material rays: 32 bytes hold all that shading needs. The quantisation is finer than the accuracy that the
+// The payload of material rays: 36 bytes hold all that shading needs, and who was hit. The quantisation is finer than the accuracy that the
 // reference must reach. Base colours are unorm16, since a closed room of albedo 0.9 multiplies their error by ten. Emission
 // is fp16 (relative error ≤ 0.05 %), directions are octahedral.
 //   W0 distance                      W4 base colour b 15 | foliage 1 | roughness 12 | channels 4, the lower ones
 //   W1 shading normal, octahedral    W5 flags 2 | sqrt(F0) 12 | specular 8 | metallic 10
 //   W2 geometric normal, octahedral  W6 emission rg fp16
 //   W3 base colour rg unorm16        W7 emission b fp16 | light-sampling weight fp16
+//                                    W8 object
 // The four fp16 are never negative: their signs are the upper channels.
 #ifndef LANTERN_MATERIAL_PAYLOAD_GLSL
 #define LANTERN_MATERIAL_PAYLOAD_GLSL
@@ -14,7 +15,7 @@
 struct FMaterialPayload
 {
 	float Distance; // metres; < 0: nothing was hit
-	uint W1, W2, W3, W4, W5, W6, W7;
+	uint W1, W2, W3, W4, W5, W6, W7, W8;
 };
 
 // Emission is scaled by this before it is stored as fp16, so that lamps of millions of nits fit. Emission below 0.004 nits
@@ -40,6 +41,7 @@ struct FMaterialHit
 	float EmissiveWeight; // FMaterialData::EmissiveWeight; 0: light sampling does not sample this surface
 	uint Flags;           // HIT_…
 	uint Channels;        // 8 bits, of the object: see LightProfile.glsl
+	uint Object;          // into FObjectData[]
 };
 
 // Two bits where two fp16 have their signs.
@@ -60,6 +62,7 @@ FMaterialPayload PackHit(FMaterialHit Hit)
 	vec3 Emission = clamp(Hit.Emissive, vec3(0.0), vec3(MaxEmission)) * EmissionScale;
 	Payload.W6 = (packHalf2x16(Emission.rg) & ~SignsOf(3u)) | SignsOf(Hit.Channels >> 4);
 	Payload.W7 = (packHalf2x16(vec2(Emission.b, Hit.EmissiveWeight)) & ~SignsOf(3u)) | SignsOf(Hit.Channels >> 6);
+	Payload.W8 = Hit.Object;
 	return Payload;
 }
 
@@ -80,6 +83,7 @@ FMaterialHit UnpackHit(FMaterialPayload Payload)
 	vec2 BlueAndWeight = unpackHalf2x16(Payload.W7 & ~SignsOf(3u));
 	Hit.Emissive = vec3(unpackHalf2x16(Payload.W6 & ~SignsOf(3u)), BlueAndWeight.x) / EmissionScale;
 	Hit.EmissiveWeight = BlueAndWeight.y;
+	Hit.Object = Payload.W8;
 	return Hit;
 }
 

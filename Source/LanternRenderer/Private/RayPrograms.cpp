@@ -23,7 +23,7 @@ namespace Lantern
 namespace
 {
 constexpr uint32_t ShadowPayloadBytes = 4;
-constexpr uint32_t MaterialPayloadBytes = 32;
+constexpr uint32_t MaterialPayloadBytes = 36;
 
 FShaderSource Shader(const char* Path) { return {Path, ERTShaderStage::RayGen, {}, {}}; }
 

@@ -122,7 +122,7 @@ TEST_F(FRendererContentTest, WithoutTheReferenceThereIsNoClosestHitAndNoMaterial
 	EXPECT_EQ(Resolve(1, 0).ClosestHit, "");
 	EXPECT_EQ(Resolve(1, 1).ClosestHit, "Rays/Material.rchit");
 	EXPECT_EQ(Resolve(0, 1).AnyHit, "");
-	EXPECT_LE(Mock().FindCalls(ERTMockCall::CreateRayTracingPipeline).at(0).Numbers[3], 32u) << "payload bytes";
+	EXPECT_LE(Mock().FindCalls(ERTMockCall::CreateRayTracingPipeline).at(0).Numbers[3], 36u) << "payload bytes";
 	Render();
 	EXPECT_EQ(GetRTPSO()->GetRayTypeCount(), 1u);
 	EXPECT_TRUE(Resolve(1, 0).IsGood()) << Resolve(1, 0).Error;
