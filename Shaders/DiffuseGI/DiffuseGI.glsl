@@ -15,9 +15,9 @@
 #define QUARTER // of the short rays of pixels
 #endif
 #include "../Shared/BruteForceTypes.h"
-#include "../Shared/RayQueueTypes.h"
 #include "../Library/Rate.glsl"
 #include "../Rays/IndirectSampling.glsl"
+#include "../Rays/ThreadList.glsl"
 #ifdef SECOND_LOBE
 #include "../Rays/SecondLobe.glsl"
 #endif
@@ -32,33 +32,25 @@ void BeginLookUps(FViewConstants View, uvec2 Pixel)
 {
 	if (Push.RadianceCells == FAddress(0)) { return; }
 	FAddress Votes = FRadianceGridRef(Push.RadianceCells).Data.Votes;
-	uint Number = (Pixel.y >> 1u) * ((View.Width + 1u) >> 1u) + (Pixel.x >> 1u);
-	uvec2 Block = min(uvec2(View.Width, View.Height) - (Pixel & ~1u), uvec2(2u)); // fewer at the border
+	uint Number = VoterOfPixel(View, Pixel);
 #if defined(QUARTER)
 	bool bVotes = true;
 #elif defined(CHECKERBOARD)
-	bool bVotes = (Pixel.y & 1u) == min((View.FrameIndex >> 1u) & 1u, Block.y - 1u);
+	uint Rows = min(View.Height - (Pixel.y & ~1u), 2u); // fewer at the border
+	bool bVotes = (Pixel.y & 1u) == min((View.FrameIndex >> 1u) & 1u, Rows - 1u);
 #else
-	uint Turn = View.FrameIndex % (Block.x * Block.y);
-	bool bVotes = (Pixel.y & 1u) * Block.x + (Pixel.x & 1u) == Turn;
+	bool bVotes = VotesInTurn(View, Pixel);
 #endif
 #ifdef DEFERRED_PATHS
 	bVotes = false; // the first launch has
 #endif
 	if (bVotes) { FRadianceVoteRef(Votes).Data[Number].Slot = NO_RADIANCE_CELL; }
-	uint Hash = HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.FrameIndex + View.Seed)));
-	BeginRadianceLookUps(Push.RadianceCells, View, bVotes ? Votes : FAddress(0), Number, 1u, Hash);
+	BeginRadianceLookUps(Push.RadianceCells, View, bVotes ? Votes : FAddress(0), Number, 1u, HashLookUps(View, Pixel));
 	RadianceNear = FRadianceGridRef(Push.RadianceCells).Data.NearCells;
 }
 #endif
 
 #if defined(DEFERS_PATHS) || defined(DEFERRED_PATHS)
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FDeferredPathsRef
-{
-	FDeferredPaths Header;
-	uint Threads[];
-};
-
 // Returns the number of threads in a row of the first launch.
 uint LaunchWidth()
 {
@@ -72,25 +64,20 @@ uint LaunchWidth()
 #endif
 
 #ifdef DEFERRED_PATHS
-// Number: of this launch's thread. OutThread: the one of the first launch that it stands for. Launches may be larger than what was deferred.
+// Number: of this launch's thread. OutThread: the one of the first launch that it stands for.
 bool FindDeferred(uint Number, out uvec2 OutThread)
 {
-	FDeferredPathsRef Deferred = FDeferredPathsRef(Push.Deferred);
-	OutThread = uvec2(0u);
-	if (Number >= Deferred.Header.Launch[0]) { return false; }
-	uint Thread = Deferred.Threads[Number], Width = LaunchWidth();
+	uint Thread, Width = LaunchWidth();
+	bool bFound = FindThread(Push.Deferred, Number, Thread);
 	OutThread = uvec2(Thread % Width, Thread / Width);
-	return true;
+	return bFound;
 }
 #endif
 
 #ifdef DEFERS_PATHS
 void DeferThread(uvec2 Thread)
 {
-	FDeferredPathsRef Deferred = FDeferredPathsRef(Push.Deferred);
-	uint Place = atomicAdd(Deferred.Header.Launch[0], 1u);
-	Deferred.Threads[Place] = Thread.y * LaunchWidth() + Thread.x;
-	if (Place % (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) == 0u) { atomicAdd(Deferred.Header.Groups[1], 1u); }
+	FThreadListRef(Push.Deferred).Threads[ReserveThreads(Push.Deferred, 1u)] = Thread.y * LaunchWidth() + Thread.x;
 }
 #endif
 

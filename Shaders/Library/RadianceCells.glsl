@@ -173,6 +173,17 @@ struct FRadianceVoter
 	uint Hash;
 };
 
+// Number of the 2×2 pixels that a pixel lies in: they share a vote.
+uint VoterOfPixel(FViewConstants View, uvec2 Pixel) { return (Pixel.y >> 1u) * ((View.Width + 1u) >> 1u) + (Pixel.x >> 1u); }
+
+// Whether it is the pixel's turn to vote, where each pixel may.
+bool VotesInTurn(FViewConstants View, uvec2 Pixel)
+{
+	uvec2 Block = min(uvec2(View.Width, View.Height) - (Pixel & ~1u), uvec2(2u)); // fewer at the border
+	uint Turn = View.FrameIndex % (Block.x * Block.y);
+	return (Pixel.y & 1u) * Block.x + (Pixel.x & 1u) == Turn;
+}
+
 // Returns the slot of the query's cell, or NO_RADIANCE_CELL. A full bucket gives the cell to the next coarser level.
 uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, uint Level, bool bCoarse)
 {

@@ -13,6 +13,9 @@ float RadianceRest = 1.0;     // weight of what a path finds that has met no cel
 bool bRadianceDeferred = false; // a path of this thread has met no cell
 #endif
 
+// Returns the hash for the votes and the levels of a pixel's look-ups.
+uint HashLookUps(FViewConstants View, uvec2 Pixel) { return HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.FrameIndex + View.Seed))); }
+
 // Votes: address of FRadianceVote[], of which the thread has Number; 0: it does not vote. Rank: see MakeRadianceVote. Hash: random.
 void BeginRadianceLookUps(FAddress Grid, FViewConstants View, FAddress Votes, uint Number, uint Rank, uint Hash)
 {

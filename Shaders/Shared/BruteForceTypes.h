@@ -15,7 +15,7 @@ struct FBruteForceConstants
 	uint MaxBounces; // scattering events, that at the pixel included
 	float MaxRoughness; // rougher surfaces are not traced
 	FAddress RadianceCells; // FRadianceGrid, for shaders with RADIANCE_CELLS; 0: there are none
-	FAddress Deferred;      // FDeferredPaths, for shaders with DEFERS_PATHS or DEFERRED_PATHS
+	FAddress Deferred;      // FThreadList of paths that have met no radiance cell, for shaders with DEFERS_PATHS or DEFERRED_PATHS
 	uint SecondOutput;      // storage index, for shaders with SECOND_LOBE
 	float NearPixels;       // for shaders with SHARED_PATHS: paths that meet something within as many pixels light no pixels but the nearest
 	FAddress GuideTiles;  // FPathGuideTile[] of the previous frame, for shaders with GUIDED_PATHS; 0: there are none
@@ -26,15 +26,6 @@ struct FBruteForceConstants
 	uint Pad;
 };
 LANTERN_ASSERT_SIZE(FBruteForceConstants, 112);
-
-// Threads of a launch whose paths have met no radiance cell. A second launch follows them, in which neighbours do the same. The numbers of
-// the threads lie behind, row by row.
-struct FDeferredPaths
-{
-	uint Groups[3]; // of the ray-query path, in rows as those of the ray queue
-	uint Launch[3]; // width, height and depth of the ray-tracing pipeline's launch: [0] threads
-};
-LANTERN_ASSERT_SIZE(FDeferredPaths, 24);
 
 // Of the pass that fills pixels which traced nothing.
 struct FFillConstants

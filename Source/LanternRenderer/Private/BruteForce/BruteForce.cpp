@@ -2,14 +2,13 @@
 #include "BruteForce/BruteForce.h"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "BruteForce/PathGuide.h"
 #include "BruteForceTypes.h"
 #include "Lights/LightCells.h"
 #include "LocalLights/Emitters.h"
 #include "RadianceCells/RadianceCells.h"
-#include "RayQueueTypes.h"
+#include "Rays/ThreadList.h"
 #include "ScreenProbes/ScreenProbes.h"
 #include "SharedPaths/SharedPaths.h"
 #include "SignalPasses.h"
@@ -68,7 +67,7 @@ struct FPaths
 {
 	FGraphTexture Output;
 	FGraphTexture SecondOutput; ///< of the second lobe; invalid: there is none
-	FGraphBuffer Deferred;      ///< FDeferredPaths; invalid: there is no second launch
+	FGraphBuffer Deferred;      ///< list of threads for the second launch; invalid: there is none
 	const FRadianceCells* RadianceCells = nullptr;
 	FPathGuide Guide;     ///< invalid: paths are not guided
 	FScreenProbes Probes; ///< invalid: paths start at pixels
@@ -103,10 +102,8 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 		Paths.Width = Paths.Probes.GetLaunchWidth();
 		Paths.Height = Paths.Probes.GetLaunchHeight();
 	}
-	const uint32_t Voters = Paths.Probes.IsValid() ? DivideUp(Paths.Probes.GetRayCount(), Paths.Probes.Grid.RaysPerVote)
-	                                               : DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2);
 	const ERayPath Path = First.Compute ? ERayPath::Query : ERayPath::Pipeline;
-	Paths.RadianceCells = Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, Path, Voters) : nullptr;
+	Paths.RadianceCells = Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, Path, CountRadianceVoters(Context)) : nullptr;
 	if (First.Has(SharedPathsDefine))
 	{
 		Paths.Shared = MakeSharedPaths(Context, Rate, First.Has(SecondLobe), uint64_t(Paths.Width) * Paths.Height);
@@ -114,52 +111,16 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	if (First.Has(GuidedPathsDefine)) { Paths.Guide = MakePathGuide(Context, Rate, uint64_t(Paths.Width) * Paths.Height); }
 	if (Second)
 	{
-		const uint64_t Bytes = sizeof(FDeferredPaths) + uint64_t(Paths.Width) * Paths.Height * sizeof(uint32_t);
-		Paths.Deferred = Context.Graph.CreateBuffer({Bytes, ERTBufferUsage::Indirect | ERTBufferUsage::CopyDest}, "DeferredPaths");
+		Paths.Deferred = AddThreadList(Context, uint64_t(Paths.Width) * Paths.Height, "DeferredPaths");
 		Paths.Second = *Second;
 	}
 	return Paths;
-}
-
-void AddDeferredStartPass(FFrameContext& Context, const FPaths& Paths)
-{
-	Context.Graph.AddPass("DeferredPathsStart", [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Write(Paths.Deferred, ERTAccess::CopyWrite);
-		Context.Tokens.LeaveAlone(Builder);
-		return [Buffer = Paths.Deferred](FPassContext& Pass) {
-			constexpr uint64_t Word = sizeof(uint32_t), Groups = offsetof(FDeferredPaths, Groups),
-			                   Launch = offsetof(FDeferredPaths, Launch);
-			const auto Fill = [&](uint64_t Offset, uint64_t Size, uint32_t Value) {
-				Pass.Commands().FillBuffer(Pass.GetBuffer(Buffer), Offset, Size, Value);
-			};
-			Fill(Groups, Word, RAY_QUEUE_ROW_GROUPS);
-			Fill(Groups + Word, Word, 0);
-			Fill(Groups + 2 * Word, Word, 1);
-			Fill(Launch, Word, 0);
-			Fill(Launch + Word, 2 * Word, 1);
-		};
-	});
 }
 
 void TraceFirst(FPassContext& Pass, const FFrameContext& Frame, const FPaths& Paths, const FBruteForceConstants& Constants)
 {
 	if (Paths.First.Compute) { return Dispatch2D(Pass, Paths.First.Compute, Constants, Paths.Width, Paths.Height, RAY_QUERY_GROUP_SIZE); }
 	TraceFrameRays(Pass, Frame, Paths.First.RayGen, Constants, Paths.Width, Paths.Height);
-}
-
-void TraceDeferred(FPassContext& Pass, const FFrameContext& Frame, const FPaths& Paths, const FBruteForceConstants& Constants)
-{
-	const FRayDispatch& Second = Paths.Second;
-	if (!Second.Compute && !Frame.Device.GetCapabilities().bIndirectTrace)
-	{
-		return TraceFrameRays(Pass, Frame, Second.RayGen, Constants, Paths.Width, Paths.Height);
-	}
-	IRTCommandList& Commands = Pass.Commands();
-	IRTBuffer* const Arguments = Pass.GetBuffer(Paths.Deferred);
-	Commands.SetPipeline(Second.Compute ? Second.Compute : Frame.RayPipeline->GetPipeline());
-	Commands.PushConstants(&Constants, sizeof(Constants));
-	if (Second.Compute) { return Commands.DispatchIndirect(Arguments, offsetof(FDeferredPaths, Groups)); }
-	Commands.TraceRaysIndirect(Frame.RayTable->GetTable(), Second.RayGen, Arguments, offsetof(FDeferredPaths, Launch));
 }
 
 bool NeedsSurface(const FBruteForcePass& Settings, const FPaths& Paths)
@@ -190,9 +151,8 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 	if (Paths.Probes.IsValid()) { DeclareScreenProbeRays(Builder, Paths.Probes); }
 	if (Paths.Shared.IsValid()) { Builder.Write(Paths.Shared.Fresh, ERTAccess::StorageWrite); }
 	if (!Paths.Deferred.IsValid()) { return; }
-	Builder.Read(Paths.Deferred, bDeferred ? ERTAccess::ShaderRead : ERTAccess::StorageRead);
-	if (bDeferred) { Builder.Read(Paths.Deferred, ERTAccess::IndirectRead); }
-	else { Builder.Write(Paths.Deferred, ERTAccess::StorageWrite); }
+	if (bDeferred) { LaunchFromThreadList(Builder, Paths.Deferred); }
+	else { AppendToThreadList(Builder, Paths.Deferred); }
 }
 
 void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteForcePass& Settings, const FGBuffer& GBuffer,
@@ -223,7 +183,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.Shared = GetAddress(Pass, Paths.Shared.Fresh);
 	C.NearPixels = GetNearPixels();
 	C.ToonPixels = GetSampledIndex(Pass, Paths.Toon);
-	if (bDeferred) { return TraceDeferred(Pass, Frame, Paths, C); }
+	if (bDeferred) { return TraceThreadList(Pass, Frame, Paths.Second, Paths.Deferred, C, Paths.Width, Paths.Height); }
 	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces));
 	TraceFirst(Pass, Frame, Paths, C);
 }
@@ -255,6 +215,11 @@ void AddDeferredPasses(const FBruteForcePass& Settings, FFrameContext& Context, 
 	if (!AddRadianceCellPasses(Context, GBuffer, Path, Beside)) { AddPathsPass(Settings, Context, GBuffer, Paths, true); }
 }
 } // namespace
+
+uint32_t CountRadianceVoters(const FFrameContext& Context)
+{
+	return std::max(CountBlockVoters(Context), CountScreenProbeVoters(Context)); // while shaders are compiled, others may serve
+}
 
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query)
 {
@@ -331,7 +296,6 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 		if (!Paths.Probes.IsValid()) { return {}; }
 		AddScreenProbePlan(Context, GBuffer, Paths.Probes);
 	}
-	if (Second) { AddDeferredStartPass(Context, Paths); }
 	AddPathsPass(Settings, Context, GBuffer, Paths, false);
 	if (Second) { AddDeferredPasses(Settings, Context, GBuffer, Paths); }
 	if (Paths.Guide.IsValid()) { AddPathGuideUpdate(Context, GBuffer, Paths.Guide); }

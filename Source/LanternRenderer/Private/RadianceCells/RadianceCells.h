@@ -30,8 +30,11 @@ FPassRays ChooseRadianceCellRays(const FPassQuery& Query, ERayPath Path);
 void AddRadianceCellDefines(FShaderDefines& InOut);
 constexpr const char* RadianceCellShaders = "RadianceCells/Update";
 
+/// Returns how many voters there are where each 2×2 pixels share one (VoterOfPixel in Shaders/Library/RadianceCells.glsl).
+inline uint32_t CountBlockVoters(const FFrameContext& Context) { return DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2); }
 /// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells. Path: as in
-/// ChooseRadianceCellRays. Voters: look-ups that may vote, each with a place of its own in FRadianceGrid::Votes, which it writes in any case.
+/// ChooseRadianceCellRays. Voters: look-ups of all passes that may vote, each with a place of its own in FRadianceGrid::Votes, which it
+/// writes in any case. The first call of a frame says how many there are.
 const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path, uint32_t Voters);
 /// Declares that a pass looks cells up and asks for those that it misses. Cells may be null.
 void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells);

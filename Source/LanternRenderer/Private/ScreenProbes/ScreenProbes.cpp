@@ -94,6 +94,12 @@ void AddScreenProbeShaders(bool bSecondLobe, FShaderDefines& InOutDefines, std::
 	OutCompute.push_back(MakeSource("Gather", bSecondLobe));
 }
 
+uint32_t CountScreenProbeVoters(const FFrameContext& Context)
+{
+	const FScreenProbeGrid Grid = MakeGrid(Context);
+	return DivideUp(Grid.Columns * Grid.Rows * uint32_t(SCREEN_PROBE_TEXELS), Grid.RaysPerVote);
+}
+
 FScreenProbes MakeScreenProbes(FFrameContext& Context, bool bSecondLobe)
 {
 	FScreenProbes Probes;

@@ -19,7 +19,6 @@ struct FScreenProbes
 	IRTPipeline *Plan = nullptr, *Resolve = nullptr, *Project = nullptr, *Gather = nullptr;
 	uint32_t NearRays = 0; ///< short rays of pixels
 	bool IsValid() const { return Gather != nullptr; }
-	uint32_t GetRayCount() const { return Grid.Columns * Grid.Rows * uint32_t(SCREEN_PROBE_TEXELS); } ///< of probes
 	/// Size of the launch: rows of pixels' rays lie below those of the probes.
 	uint32_t GetLaunchWidth() const { return Grid.Columns * uint32_t(SCREEN_PROBE_TEXELS); }
 	uint32_t GetLaunchHeight() const { return Grid.Rows + DivideUp(NearRays, GetLaunchWidth()); }
@@ -29,6 +28,8 @@ constexpr const char* ScreenProbesDefine = "SCREEN_PROBES";
 /// Adds what the shader of the rays is compiled with, and lists the shaders of the other passes. bSecondLobe: see FBruteForcePass::Second.
 void AddScreenProbeShaders(bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute);
 
+/// Returns the look-ups of radiance cells that may vote, of a frame whose paths start at probes.
+uint32_t CountScreenProbeVoters(const FFrameContext& Context);
 /// Makes the probes of the frame's view. Invalid: shaders are being compiled, or there is no memory, which the context then has as an error.
 FScreenProbes MakeScreenProbes(FFrameContext& Context, bool bSecondLobe);
 /// Adds the pass that places probes and plans their rays.
