@@ -3,6 +3,8 @@
 // RAY_QUERY: rays are traced inline, in compute shaders; otherwise through a ray-tracing pipeline.
 // RADIANCE_CELLS: paths end where a radiance cell knows the light; the thread calls BeginRadianceLookUps first.
 // DEFERS_PATHS: paths also end where none does; bRadianceDeferred then says that what they bring is void.
+// KEEPS_HIT: what the first ray of a gathered path met is kept, behind mirrors as well. See FKeptHit.
+// NO_CAUSTICS: mirrors show no sun's disk to what they light. Few paths would find it, and each would be a bright blotch.
 // GUIDED_PATHS, SECOND_LOBE: see PathDirections.glsl. Gather then takes a white Lambert lobe alone.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
 // defined if the scene has such.
@@ -80,16 +82,29 @@ FMaterialHit TraceMaterial(FSceneConstants Scene, vec3 Origin, vec3 Direction)
 	return TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, SHOWS_ALL);
 }
 
+#ifdef NO_CAUSTICS
+bool bSeenInMirrors = false; // mirrors alone lie between the camera and the end of the path
+#endif
+
 // Returns the radiance of the sky and the sun's disk along a ray that hits nothing, weighted against next-event estimation.
 // Pdf: with which Direction was sampled; NdotL: its cosine at the vertex that it left; Channels: of the object there.
 vec3 ShadeMiss(FSceneConstants Scene, vec3 Direction, float Pdf, float NdotL, uint Channels)
 {
 	vec3 L = vec3(0.0);
 #ifdef HAS_SKY
+#ifdef RADIANCE_CELLS
+	L += SampleSkyRadiance(Scene, Direction); // see SampleLights
+#else
 	L += SampleSkyRadiance(Scene, Direction) * PowerHeuristic(Pdf, NdotL / Pi);
 #endif
+#endif
 #ifdef HAS_SUN
-	if (Scene.SunOneMinusCos > 0.0 && SunSharesChannel(Scene, Channels) && IsInSunDisk(Scene, Direction))
+#ifdef NO_CAUSTICS
+	bool bDisk = !isinf(Pdf) || bSeenInMirrors;
+#else
+	const bool bDisk = true;
+#endif
+	if (bDisk && Scene.SunOneMinusCos > 0.0 && SunSharesChannel(Scene, Channels) && IsInSunDisk(Scene, Direction))
 	{
 		L += SunRadiance(Scene) * PowerHeuristic(Pdf, SunPdf(Scene));
 	}
@@ -124,6 +139,39 @@ FBrdf MakeBrdf(FMaterialHit Hit)
 	return Brdf;
 }
 
+#ifdef KEEPS_HIT
+// The first surface of a path that is no mirror.
+struct FKeptHit
+{
+	float Distance; // by way of the mirrors, metres; below 0: the sky
+	vec3 Normal;    // geometric
+	uint Object;    // into FObjectData[]
+	vec3 Albedo;    // what it reflects of even light towards the path, by way of the mirrors
+	vec3 Emission;  // by way of the mirrors; the path brings the rest
+};
+FKeptHit KeptHit;
+// Set by the thread before.
+bool bLightsHits = false; // whether light is sampled there, and radiance cells hold that of further surfaces alone
+bool bKeepsEmission = false;
+
+const FKeptHit NothingKept = FKeptHit(-1.0, vec3(0.0, 0.0, 1.0), 0u, vec3(1.0), vec3(0.0));
+
+// Throughput: of the mirrors before. Before: length of the path to the last one.
+void KeepHit(inout FMaterialHit Hit, vec3 Direction, vec3 Throughput, float Before)
+{
+	const float LeastAlbedo = 0.01;
+	KeptHit = NothingKept;
+	if (Hit.Distance < 0.0) { return; }
+	FBrdf Brdf = MakeBrdf(Hit);
+	float NdotV = dot(BendNormal(Hit.Normal, -Direction), -Direction);
+	vec3 Albedo = DiffuseReflectance(Brdf, NdotV) + SpecularReflectance(Brdf, NdotV, Hit.Roughness);
+	KeptHit = FKeptHit(Before + Hit.Distance, Hit.GeometricNormal, Hit.Object, Throughput * max(Albedo, LeastAlbedo), vec3(0.0));
+	if (!bKeepsEmission) { return; }
+	KeptHit.Emission = Throughput * Hit.Emissive;
+	Hit.Emissive = vec3(0.0);
+}
+#endif
+
 // Chooses whether a path goes on to what materials look like, by its share of what is reflected. Returns the factor of what it finds.
 vec3 ChooseShown(vec3 Share, float U, out bool bShown)
 {
@@ -140,6 +188,9 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 {
 	vec3 Radiance = vec3(0.0), Throughput = vec3(1.0);
 	uint Channels = AllChannels; // of the vertex before
+#ifdef KEEPS_HIT
+	bool bMirrored = true; // only mirrors have scattered the path, but for its first vertex
+#endif
 	for (;; ++Bounce)
 	{
 		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
@@ -156,7 +207,12 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #ifdef RADIANCE_CELLS
 		vec3 Known;
 		float NearCells = Bounce == 1u ? RadianceNear : 0.0;
-		if (LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, NextRandom4(Random).x, Known)) { return Radiance + Throughput * Known; }
+#ifdef KEEPS_HIT
+		bool bLooksUp = !(bLightsHits && bMirrored);
+#else
+		const bool bLooksUp = true;
+#endif
+		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, NextRandom4(Random).x, Known)) { return Radiance + Throughput * Known; }
 		Throughput *= TakeRadianceRest();
 		if (Bounce >= MaxBounces || Throughput == vec3(0.0)) { return Radiance; }
 #ifdef DEFERS_PATHS
@@ -195,6 +251,13 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		Channels = Hit.Channels;
 		Origin = P;
 		Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
+#ifdef KEEPS_HIT
+		bMirrored = bMirrored && isinf(Sample.Pdf) && SpecularProbability(Brdf, LocalV) >= 1.0; // else the choice is chance
+		if (bMirrored) { KeepHit(Hit, Direction, Throughput, KeptHit.Distance); }
+#ifdef NO_CAUSTICS
+		bSeenInMirrors = bMirrored;
+#endif
+#endif
 	}
 }
 
@@ -278,6 +341,9 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 		EmissionShare = bShown ? 1.0 : 0.0; // their mean is the share
 #endif
 		if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= EmissionShare; }
+#ifdef KEEPS_HIT
+		KeepHit(Hit, Direction, vec3(1.0), 0.0);
+#endif
 		Radiance = FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, bShown, Random);
 	}
 	Gathered.Light = Sample.Weight * Radiance;

@@ -30,6 +30,9 @@ TRTConsoleVariable<float> CVarNear("r.RT.GI.Cells.Near", 2.0f,
     {0, 16});
 TRTConsoleVariable<float> CVarSeconds(
     "r.RT.GI.Cells.Seconds", 1.0f, "Time over which a radiance cell averages its light, in seconds.", {0.05f, 60});
+TRTConsoleVariable<bool> CVarCaustics("r.RT.GI.Caustics", false,
+    "Mirrors throw the sun on what they light, where paths end in radiance cells. Few paths find the sun that way, so that it shows as "
+    "bright blotches.");
 TRTConsoleVariable<bool> CVarDirection("r.RT.Debug.GI.CellDirection", true,
     "Planted fault. If off, surfaces that paths hit reflect the light of radiance cells as if it came evenly from all directions.");
 TRTConsoleVariable<bool> CVarAskedFirst("r.RT.Debug.GI.AskedFirst", true,
@@ -255,6 +258,7 @@ std::optional<FRayDispatch> FindUpdateDispatch(const FFrameContext& Context, ERa
 void AddRadianceCellDefines(FShaderDefines& InOut)
 {
 	InOut.emplace_back("RADIANCE_CELLS", "1");
+	if (!CVarCaustics.GetOnRenderThread()) { InOut.emplace_back("NO_CAUSTICS", "1"); }
 	if (!CVarLayers.GetOnRenderThread()) { InOut.emplace_back("NO_LAYERS", "1"); }
 	if (!CVarDirection.GetOnRenderThread()) { InOut.emplace_back("NO_CELL_DIRECTION", "1"); }
 }
