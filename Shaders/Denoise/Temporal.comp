@@ -1,4 +1,5 @@
 // Accumulation over time: where the pixel's surface was seen before, this frame's value joins the mean of those before it.
+// SPARSE: most tiles of the screen may show nothing.
 // QUARTER: of colours of which one pixel of each 2×2 has a value of its own, in turn (Library/Rate.glsl).
 // main() lists the steps. Each is a file of the folder Temporal/ that says what it takes, what it gives, why, and its source.
 #version 460
@@ -54,10 +55,33 @@ FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSi
 	return Frame.bHasValue ? Blend(Frame, History, Noise) : FillIn(Frame, History, Noise, Unchanged);
 }
 
+#ifdef SPARSE
+shared uint bAnything;
+
+// Called by all threads. False: no pixel of the group shows anything, and what that needs has been stored.
+bool ShowsAnything(ivec2 Pixel, ivec2 Size)
+{
+	bool bInside = all(lessThan(Pixel, Size));
+	if (gl_LocalInvocationIndex == 0u) { bAnything = 0u; }
+	barrier();
+	if (bInside && texelFetch(Textures[Push.Surface], Pixel, 0).x > 0.0) { bAnything = 1u; }
+	barrier();
+	if (bAnything != 0u) { return true; }
+	if (!bInside) { return false; }
+	FSignal Value = GetSignal(texelFetch(Textures[Push.Signal], Pixel, 0));
+	Store(Pixel, FAccumulated(SanitizeSignal(Value, IsSignalFinite(Value)), 0.0, 0.0, 0.0), 0.0);
+	DrawCertain(Pixel, true);
+	return false;
+}
+#endif
+
 void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	ivec2 Size = ivec2(View.Width, View.Height), Pixel = ivec2(gl_GlobalInvocationID.xy);
+#ifdef SPARSE
+	if (!ShowsAnything(Pixel, Size)) { return; }
+#endif
 	StartTouched();
 	FindTurn(View.FrameIndex);
 	LoadTile(Size);

@@ -139,11 +139,11 @@ vec3 ShadeIndirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FBrd
 	Diffuse = ApplyToonStyle(Scene, View, Pixel, Diffuse, Layer, Push.IndirectDiffuse != NO_TEXTURE);
 #endif
 	vec4 Specular = Push.IndirectSpecular != NO_TEXTURE ? texelFetch(Textures[Push.IndirectSpecular], Pixel, 0) : vec4(0.0);
-	if (Specular.a <= 0.0)
+	if (Specular.a < 1.0)
 	{
 		vec3 Incident = Push.IndirectRough != NO_TEXTURE ? texelFetch(Textures[Push.IndirectRough], Pixel, 0).rgb
 		                                                 : mix(Surroundings, Mirrored, SpecularOcclusion(NdotV, Visibility, Material.x));
-		Specular.rgb = Incident * SpecularReflectance(Brdf, NdotV, Material.x);
+		Specular.rgb = mix(Incident * SpecularReflectance(Brdf, NdotV, Material.x), Specular.rgb, Specular.a);
 	}
 	return DiffuseReflectance(Brdf, NdotV) * Diffuse + Specular.rgb;
 }

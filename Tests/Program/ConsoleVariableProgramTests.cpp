@@ -125,8 +125,8 @@ TEST(ConsoleVariableProgramTest, CommandLineOutranksQualityAndFiles)
 	const std::string Ini = Folder.Write("project.ini", "[SystemSettings]\nr.RT.Shadow.Samples=8\n");
 	const auto CountRays = [&](std::vector<std::string> More) {
 		const std::string Json = Folder.GetPath() + "/rays.json";
-		More.insert(More.begin(),
-		    {"render", "planes", "--size", "10x10", "--sun", "1,0,-1,0,2", "--set", "r.RT.AO=0", "--set", "r.RT.GI=0", "--json", Json});
+		More.insert(More.begin(), {"render", "planes", "--size", "10x10", "--sun", "1,0,-1,0,2", "--set", "r.RT.AO=0", "--set", "r.RT.GI=0",
+		                              "--set", "r.RT.Reflections=0", "--json", Json});
 		const FProgramRun Run = RunProgram(More);
 		EXPECT_EQ(Run.Status, 0) << Run.Err;
 		return ReadJson(Json)["rays"].get<uint64_t>() / 100;

@@ -54,7 +54,7 @@ TEST_F(FOutputTest, RenderWritesWhatTheContractNames)
 	// A build without OpenImageIO writes PFM only.
 	const std::string Picture = CheckImageOutput(At("a.png")) ? "a.png" : "a.pfm";
 	const FProgramRun Run = RunCleanly({"render", "planes", "--size", "40x30", "--frames", "3", "--set", "r.RT.AO=0", "--set", "r.RT.GI=0",
-	    "--set", "r.RT.Shadow.MoreRays=0", "--validate", "-o", At(Picture), "--json", At("a.json")});
+	    "--set", "r.RT.Reflections=0", "--set", "r.RT.Shadow.MoreRays=0", "--validate", "-o", At(Picture), "--json", At("a.json")});
 	EXPECT_THAT(Run.Out, HasSubstr("GPU ms"));
 	EXPECT_THAT(Run.Out, HasSubstr("SunShadow"));
 	EXPECT_THAT(Run.Err, HasSubstr("loaded in")) << "the log";
@@ -123,7 +123,8 @@ TEST_F(FOutputTest, RenderSettlesUnlessTheNumberOfFramesIsGiven)
 		Json = ReadJson(At("a.json"));
 		return Run.Out;
 	};
-	EXPECT_THAT(Render({"furnace", "--set", "r.RT.AO=0", "--set", "r.RT.GI=0", "--set", "r.RT.Lights.Emissive=0"}),
+	EXPECT_THAT(
+	    Render({"furnace", "--set", "r.RT.AO=0", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0", "--set", "r.RT.Lights.Emissive=0"}),
 	    HasSubstr("frames: 1, settled"));
 	EXPECT_EQ(Json["frames"], 1) << "nothing accumulates";
 	const std::string Noisy = Render({"courtyard"});
@@ -140,11 +141,12 @@ TEST_F(FOutputTest, RenderSettlesUnlessTheNumberOfFramesIsGiven)
 TEST_F(FOutputTest, PassesThatTheSceneDoesNotNeedAreAbsent)
 {
 	EXPECT_THAT(RenderPasses({"planes"}), Contains("DiffuseGI")) << "on by default";
-	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.GI=0"}), Contains("SunShadow"));
+	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0"}), Contains("SunShadow"));
 	EXPECT_THAT(Json["rtpso"]["hit_groups"], 0) << "ray queries need no pipeline";
 	EXPECT_THAT(RenderPasses({"furnace"}), Contains("ShadowLights")) << "its walls emit";
 	EXPECT_GT(Json["rays"].get<uint64_t>(), 0u);
-	const std::vector<std::string> Sunless = RenderPasses({"furnace", "--set", "r.RT.GI=0", "--set", "r.RT.Lights.Emissive=0"});
+	const std::vector<std::string> Sunless =
+	    RenderPasses({"furnace", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0", "--set", "r.RT.Lights.Emissive=0"});
 	EXPECT_THAT(Sunless, Not(Contains("ShadowLights")));
 	EXPECT_THAT(Sunless, Not(Contains("SunShadow")));
 	EXPECT_THAT(Sunless, Not(Contains("Skinning")));
@@ -153,7 +155,8 @@ TEST_F(FOutputTest, PassesThatTheSceneDoesNotNeedAreAbsent)
 	EXPECT_EQ(Json["memory"]["blas"], 0) << "nobody traces rays";
 	EXPECT_EQ(Json["memory"]["tlas"], 0);
 	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.Shadow=0"}), Not(Contains("SunShadow")));
-	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.GI=0", "--set", "r.RT.Shadow.Path=1"}), Contains("SunShadow"));
+	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0", "--set", "r.RT.Shadow.Path=1"}),
+	    Contains("SunShadow"));
 	EXPECT_EQ(Json["rtpso"]["hit_groups"], 1);
 	EXPECT_GT(Json["memory"]["sbt"].get<uint64_t>(), 0u);
 }
@@ -178,8 +181,8 @@ TEST_F(FOutputTest, PictureIsTheSameWhateverItsFileAndLastFrameCounts)
 	if (!CheckImageOutput(At("a.exr"))) { GTEST_SKIP() << "a build without OpenImageIO"; }
 	for (const char* Name : {"a.pfm", "a.exr"})
 	{
-		RunCleanly({"render", "furnace:0.5", "--set", "r.RT.GI=0", "--set", "r.RT.Lights.Emissive=0", "--size", "16x12", "--validate", "-o",
-		    At(Name)});
+		RunCleanly({"render", "furnace:0.5", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0", "--set", "r.RT.Lights.Emissive=0",
+		    "--size", "16x12", "--validate", "-o", At(Name)});
 	}
 	FImage A, B;
 	ASSERT_TRUE(LoadImageFile(At("a.pfm"), A));
@@ -187,8 +190,8 @@ TEST_F(FOutputTest, PictureIsTheSameWhateverItsFileAndLastFrameCounts)
 	EXPECT_EQ(A.Width, 16u);
 	EXPECT_EQ(A.Height, 12u);
 	EXPECT_EQ(A.Pixels, B.Pixels);
-	RunCleanly({"render", "furnace:0.5", "--set", "r.RT.GI=0", "--set", "r.RT.Lights.Emissive=0", "--size", "16x12", "--frames", "3", "-o",
-	    At("b.pfm")});
+	RunCleanly({"render", "furnace:0.5", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0", "--set", "r.RT.Lights.Emissive=0", "--size",
+	    "16x12", "--frames", "3", "-o", At("b.pfm")});
 	ASSERT_TRUE(LoadImageFile(At("b.pfm"), B));
 	EXPECT_EQ(A.Pixels, B.Pixels) << "nothing moves and nothing is random here";
 }

@@ -110,7 +110,7 @@ TEST_F(FEmittersTest, PanelsAsTheReference)
 {
 	ASSERT_TRUE(LoadPanels());
 	const FView View = LookAtStage(48, 27);
-	for (const char* const Reflections : {"0", "1"})
+	for (const char* const Reflections : {"0", "2"})
 	{
 		SetVariable("r.RT.Reflections", Reflections);
 		for (const ESignal Lobe : Lobes)

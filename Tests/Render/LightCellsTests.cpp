@@ -402,7 +402,7 @@ TEST_F(FLightCellsTest, HitsOfRays)
 	ASSERT_TRUE(Load("lamps:200"));
 	SetVariable("r.RT.GI", "1");
 	SetVariable("r.RT.GI.Denoise", "0");
-	SetVariable("r.RT.Reflections", "1");
+	SetVariable("r.RT.Reflections", "2");
 	const FView View = MakeView(Width, Height);
 	for (const ESignal Signal : {ESignal::DiffuseGI, ESignal::Reflections})
 	{

@@ -1,4 +1,4 @@
-// Brute-force reflections, and the composite of all signals against the reference.
+// Reflections by brute force and by paths that end in radiance cells, and the composite of all signals against the reference.
 #include <cmath>
 
 #include "SignalFixture.h"
@@ -39,11 +39,19 @@ TEST_F(FReflectionsTest, MirrorShowsWhatIsThere)
 	ASSERT_TRUE(Load(std::move(Pair.Scene)));
 	SetSky(glm::vec3(0.25f));
 	SetIndirect(1, 1);
+	const auto SetRoute = [](const char* Route, const char* Path) {
+		SetVariable("r.RT.Reflections", Route);
+		SetVariable("r.RT.Reflections.Path", Path);
+	};
 	// From (0, 1, 1) over the mirror at (0, 0, 0) the ray goes up to (0, 1, −1), the middle of the lamp; at (0, 0, 0.45) it
 	// passes the lamp.
 	const auto Look = [](double Z) { return LookAt({0, 1, 1}, {0, 0, Z}, 0.02f, 16, 16); };
-	EXPECT_NEAR(MeanGreen(RenderSignal(ESignal::Reflections, Look(0.0))), 7.0, 0.02);
-	EXPECT_NEAR(MeanGreen(RenderSignal(ESignal::Reflections, Look(0.45))), 0.25, 0.001);
+	for (const auto& [Route, Path] : {std::pair("2", "0"), std::pair("1", "1"), std::pair("1", "2")})
+	{
+		SetRoute(Route, Path);
+		EXPECT_NEAR(MeanGreen(RenderSignal(ESignal::Reflections, Look(0.0))), 7.0, 0.02) << Route << Path;
+		EXPECT_NEAR(MeanGreen(RenderSignal(ESignal::Reflections, Look(0.45))), 0.25, 0.001) << Route << Path;
+	}
 	EXPECT_NEAR(MeanGreen(TraceSignal(ESignal::Reflections, Look(0.0), 2)), 7.0, 0.02);
 }
 
@@ -60,15 +68,19 @@ TEST_F(FReflectionsTest, FurnaceOfMetalsAndDielectrics)
 				ASSERT_TRUE(LoadPlane(Metallic, Roughness, Mu));
 				SetIndirect(16, 1);
 				const std::string Name = fmt::format("{} of roughness {}, mu {}", Metallic > 0.5f ? "metal" : "dielectric", Roughness, Mu);
-				const FEstimate Frame = EstimateFrames(ESignal::Frame, PlaneView, 1, 4),
-				                Reference = EstimateSignal(ESignal::Frame, PlaneView, 24, 1, 4);
-				const double Sigma = std::hypot(Frame.StandardError, Reference.StandardError) / Reference.Mean;
-				PrintFigure(fmt::format("{}: frame {:.5f}, reference {:.5f}: {:+.3f} % (statistical error {:.3f} %)", Name, Frame.Mean,
-				    Reference.Mean, 100.0 * (Frame.Mean / Reference.Mean - 1.0), 100.0 * Sigma));
-				EXPECT_NEAR(Frame.Mean / Reference.Mean, 1.0, 0.01) << Name;
-				EXPECT_LT(Sigma, 0.003) << Name;
-				if (Metallic > 0.5f && Roughness == 0.0f) { EXPECT_NEAR(Frame.Mean, 1.0, 0.002); }
-				if (Metallic > 0.5f && Roughness == 1.0f) { EXPECT_NEAR(Frame.Mean, 1.0 - Mu * std::log(1.0 + 1.0 / Mu), 0.01); }
+				const FEstimate Reference = EstimateSignal(ESignal::Frame, PlaneView, 24, 1, 4);
+				for (const char* const Route : {"1", "2"})
+				{
+					SetVariable("r.RT.Reflections", Route);
+					const FEstimate Frame = EstimateFrames(ESignal::Frame, PlaneView, 1, 4);
+					const double Sigma = std::hypot(Frame.StandardError, Reference.StandardError) / Reference.Mean;
+					PrintFigure(fmt::format("{}, route {}: frame {:.5f}, reference {:.5f}: {:+.3f} % (statistical error {:.3f} %)", Name,
+					    Route, Frame.Mean, Reference.Mean, 100.0 * (Frame.Mean / Reference.Mean - 1.0), 100.0 * Sigma));
+					EXPECT_NEAR(Frame.Mean / Reference.Mean, 1.0, 0.01) << Name << ", route " << Route;
+					EXPECT_LT(Sigma, 0.003) << Name;
+					if (Metallic > 0.5f && Roughness == 0.0f) { EXPECT_NEAR(Frame.Mean, 1.0, 0.002); }
+					if (Metallic > 0.5f && Roughness == 1.0f) { EXPECT_NEAR(Frame.Mean, 1.0 - Mu * std::log(1.0 + 1.0 / Mu), 0.01); }
+				}
 			}
 		}
 	}

@@ -92,7 +92,7 @@ TEST_F(FRoughSpecularTest, OnlyWhereReflectionsAreNotTraced)
 {
 	ASSERT_TRUE(LoadCorner(0.6f));
 	EXPECT_TRUE(HasSignal(ESignal::RoughSpecular, See()));
-	SetVariable("r.RT.Reflections", "1");
+	SetVariable("r.RT.Reflections", "2");
 	EXPECT_FALSE(HasSignal(ESignal::RoughSpecular, See()));
 	SetVariable("r.RT.Reflections.MaxRoughness", "0.5");
 	EXPECT_TRUE(HasSignal(ESignal::RoughSpecular, See()));

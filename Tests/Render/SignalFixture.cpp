@@ -97,9 +97,10 @@ void FSignalTest::ExpectUnbiased(
 void FSignalTest::SetIndirect(int32_t Samples, int32_t Bounces)
 {
 	SetVariable("r.RT.GI.Denoise", "0");
+	SetVariable("r.RT.GI", "1");
+	SetVariable("r.RT.Reflections", "2");
 	for (const char* Pass : {"r.RT.GI", "r.RT.Reflections"})
 	{
-		SetVariable(Pass, "1");
 		SetVariable((std::string(Pass) + ".Samples").c_str(), std::to_string(Samples));
 		SetVariable((std::string(Pass) + ".Bounces").c_str(), std::to_string(Bounces));
 	}

@@ -39,10 +39,16 @@ constexpr FSignalPass Passes[] = {
         .WantsMotion = IsDiffuseGIFiltered,
         .ListFilters = ListDiffuseGIFilters,
         .EmissionIn = ESignal::LocalDiffuse,
+        .KeepsRadianceCells = ChooseCachedLightPath,
         .bStyled = true,
         .bToonGraded = true,
         .Pictures = RadianceCellPictures},
-    {.Signal = ESignal::Reflections, .ChooseRays = ChooseReflectionsRays, .Add = AddReflectionsPass, .EmissionIn = ESignal::LocalSpecular},
+    {.Signal = ESignal::Reflections,
+        .ChooseRays = ChooseReflectionsRays,
+        .Add = AddReflectionsPass,
+        .WantsMotion = AreReflectionsFiltered,
+        .ListFilters = ListReflectionFilters,
+        .EmissionIn = ESignal::LocalSpecular},
     {.Signal = ESignal::LocalDiffuse,
         .ChooseRays = ChooseLocalLightRays,
         .Add = AddLocalDiffusePass,
@@ -92,6 +98,16 @@ bool AsksForRays(ESignal Signal, const FSignalRequests& Requests)
 	if (IsMade(Signal, Requests) || (Requests.bLightMask && Signal == GetLightMaskRow())) { return true; }
 	return std::any_of(std::begin(Passes), std::end(Passes),
 	    [&](const FSignalPass& Pass) { return Pass.RaysOf == Signal && IsMade(Pass.Signal, Requests); });
+}
+
+ERayPath ChooseRadianceCellPath(const FPassQuery& Query)
+{
+	for (const FSignalPass& Pass : Passes)
+	{
+		if (!Pass.KeepsRadianceCells || !AsksForRays(Pass.Signal, Query.Requests)) { continue; }
+		if (const ERayPath Path = Pass.KeepsRadianceCells(Query); Path != ERayPath::None) { return Path; }
+	}
+	return ERayPath::None;
 }
 
 bool IsAnyMadeBesideLightMask(const FSignalRequests& Requests)

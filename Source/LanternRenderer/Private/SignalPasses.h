@@ -24,6 +24,8 @@ struct FSignalPass
 	ESignal RaysOf = ESignal::Count;
 	/// The signal of local lights that holds directly seen emission of the same lobe (LocalLights/Emitters.h). Count: there is none.
 	ESignal EmissionIn = ESignal::Count;
+	/// Returns the path by which the pass keeps radiance cells up to date, if its rays are asked for. None, or null: it keeps none.
+	ERayPath (*KeepsRadianceCells)(const FPassQuery& Query) = nullptr;
 	/// Adds what the signal asks of the frame's shadow rays (RequireShadowRays). Called if ChooseRays chose the queue's shaders, and they
 	/// are ready: Dispatch has them. False: it asks for nothing, because its other shaders are not. Null: it never asks.
 	bool (*AskShadowRays)(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut) = nullptr;
@@ -49,6 +51,8 @@ inline bool IsMade(ESignal Signal, const FSignalRequests& Requests) { return !Re
 ESignal GetLightMaskRow();
 /// Returns whether a frame asks for the rays of Signal's row.
 bool AsksForRays(ESignal Signal, const FSignalRequests& Requests);
+/// Returns the path by which a frame keeps radiance cells up to date, for passes that look them up. None: it has none.
+ERayPath ChooseRadianceCellPath(const FPassQuery& Query);
 /// Returns whether a frame makes some signal of what is not in the light mask.
 bool IsAnyMadeBesideLightMask(const FSignalRequests& Requests);
 

@@ -43,7 +43,7 @@ protected:
 	{
 		FConsoleVariables::Get().ResetAll();
 		Open(Stage.Device);
-		Set("r.RT.Reflections", "1");
+		Set("r.RT.Reflections", "2");
 		for (const auto& [Name, Value] : Settings) { Set(Name, Value); }
 		for (const auto& [Name, Value] : Stage.Settings) { Set(Name, Value); }
 		FSceneDescription Scene = MakeDescription(Stage.Content);
@@ -315,6 +315,37 @@ TEST_F(FRendererLackTest, RadianceCellsAreThereForRoutesThatEndInThem)
 	FStage Empty = Cells;
 	Empty.Content = {.bObjects = false, .bSky = true};
 	EXPECT_FALSE(HasPart(Make(Empty), "RadianceCell")) << "without surfaces";
+}
+
+TEST_F(FRendererLackTest, ReflectionsByPathsHaveTheirPassesAlone)
+{
+	FStage Off, BruteForce, Paths, Raw;
+	Off.Settings = {{"r.RT.Reflections", "0"}};
+	Paths.Settings = {{"r.RT.Reflections", "1"}};
+	Raw.Settings = {{"r.RT.Reflections", "1"}, {"r.RT.Reflections.Denoise", "0"}};
+	const FNames Made = Make(Paths), Unfiltered = Make(Raw), None = Make(Off), Brute = Make(BruteForce);
+	for (const char* Part : {"pass ReflectionsList", "pass ReflectionsCombine", "Reflections/Paths", "pass ReflectionsThreads"})
+	{
+		EXPECT_TRUE(HasPart(Made, Part)) << Part;
+		EXPECT_TRUE(HasPart(Unfiltered, Part)) << Part;
+		EXPECT_FALSE(HasPart(None, Part)) << Part;
+		EXPECT_FALSE(HasPart(Brute, Part)) << Part;
+	}
+	for (const char* Part : {"ReflectionSurface", "ReflectionAnchors", "pass ReflectionsSurface", "pass ReflectionsTemporal"})
+	{
+		EXPECT_TRUE(HasPart(Made, Part)) << Part;
+		EXPECT_FALSE(HasPart(Unfiltered, Part)) << "without a filter: " << Part;
+	}
+	FStage Dark = Paths;
+	Dark.Content.bSun = Dark.Content.bSky = Dark.Content.bLights = Dark.Content.bEmissive = false;
+	EXPECT_FALSE(HasPart(Make(Dark), "Reflection")) << "without light";
+	FStage Empty = Paths;
+	Empty.Content = {.bObjects = false, .bSky = true};
+	EXPECT_FALSE(HasPart(Make(Empty), "Reflection")) << "without surfaces";
+	EXPECT_FALSE(HasPart(Made, "RadianceCell")) << "cells are global illumination's";
+	FStage WithCells = Paths;
+	WithCells.Settings.emplace_back("r.RT.GI", "3");
+	EXPECT_TRUE(HasPart(Make(WithCells), "pass ReflectionsList"));
 }
 
 TEST_F(FRendererLackTest, PicturesOfRadianceCellsAreThereWhereSomebodyLooks)

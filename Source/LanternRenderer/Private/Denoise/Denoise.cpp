@@ -46,6 +46,7 @@ struct FDenoiser
 	bool Prepare(const FGBuffer& GBuffer);
 	FGraphTexture CreateImage(bool bLast, uint32_t Index) const;
 	FGraphTexture AddTemporalPass(FGraphTexture Output);
+	const FSurfaceTextures& GetSurface() const { return Inputs.Surface.Current.IsValid() ? Inputs.Surface : Context.Surface; }
 };
 
 FShaderDefines MakeDefines(const FDenoiseForm& Form)
@@ -60,6 +61,7 @@ FShaderSource MakeTemporalSource(const FDenoiseForm& Form)
 	FShaderDefines Defines = MakeDefines(Form);
 	if (Form.bColor && !Form.bKnownNoise && Form.Rate == EPixelRate::Quarter) { AddRateDefine(Form.Rate, Defines); }
 	for (const auto& Define : MakeValidationDefines()) { Defines.push_back(Define); }
+	if (Form.bSparse) { Defines.emplace_back("SPARSE", "1"); }
 	if (!CVarAdapt.GetOnRenderThread()) { Defines.emplace_back("NO_ADAPTION", "1"); }
 	if (!CVarGuard.GetOnRenderThread()) { Defines.emplace_back("NO_GUARD", "1"); }
 	return MakeComputeSource(Form.bKnownNoise ? "Denoise/TemporalKnown.comp" : "Denoise/Temporal.comp", std::move(Defines));
@@ -87,7 +89,7 @@ FGraphTexture FDenoiser::CreateImage(bool bLast, uint32_t Index) const
 
 FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 {
-	const FSurfaceTextures Surface = Context.Surface;
+	const FSurfaceTextures Surface = GetSurface();
 	const bool bReproject = History.Previous.IsValid() && Surface.Previous.IsValid() && (!bColor || Moments.Previous.IsValid());
 	Context.Graph.AddPass((Name + "Temporal").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {Inputs.Signal, Surface.Current}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
@@ -97,7 +99,8 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		}
 		if (bReproject)
 		{
-			for (const FGraphTexture Texture : {Surface.Motion, History.Previous}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+			if (Surface.Motion.IsValid()) { Builder.Read(Surface.Motion, ERTAccess::ShaderRead); }
+			Builder.Read(History.Previous, ERTAccess::ShaderRead);
 			const FGraphTexture OfColor[] = {Moments.Previous, Surface.Anchors}, OfVisibility[] = {Surface.Previous, Surface.Reprojection};
 			for (const FGraphTexture Texture : bColor ? OfColor : OfVisibility) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -145,7 +148,8 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 
 bool FDenoiser::Prepare(const FGBuffer& GBuffer)
 {
-	if (!RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return false; }
+	assert(!Inputs.Surface.Current.IsValid() || bColor);
+	if (!Inputs.Surface.Current.IsValid() && !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return false; }
 	History = Inputs.History;
 	if (!History.Current.IsValid() && !RequireDenoiseHistory(Context, Inputs.Name, History)) { return false; }
 	if (bColor && !Require(Context, Name + "Moments", ERTFormat::RG16_FLOAT, Moments)) { return false; }
@@ -157,11 +161,10 @@ bool FDenoiser::Prepare(const FGBuffer& GBuffer)
 	return true;
 }
 
-/// Name: of the pass.
-void AddFilterPass(FFrameContext& Context, const std::string& Name, const FSignals& Inputs, const FSignals& Outputs,
+/// Name: of the pass. Surface: what pixels show.
+void AddFilterPass(FFrameContext& Context, const std::string& Name, FGraphTexture Surface, const FSignals& Inputs, const FSignals& Outputs,
     const FDenoiseSettings& Settings, IRTPipeline* Pipeline, uint32_t Index)
 {
-	const FGraphTexture Surface = Context.Surface.Current;
 	Context.Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(Surface, ERTAccess::ShaderRead);
 		for (const FGraphTexture Input : Inputs)
@@ -204,8 +207,8 @@ FSignals AddDenoise(
 	{
 		const ERTFormat Format = Context.Graph.GetDesc(Inputs->Signal).Format;
 		assert(Format == ERTFormat::R16_FLOAT || Format == ERTFormat::RGBA16_FLOAT);
-		const FDenoiseForm Form{
-		    Format == ERTFormat::RGBA16_FLOAT, Inputs->Extent.IsValid(), All.size() > 1, Inputs->Rate, Inputs->bKnownNoise};
+		const FDenoiseForm Form{Format == ERTFormat::RGBA16_FLOAT, Inputs->Extent.IsValid(), All.size() > 1, Inputs->Rate,
+		    Inputs->bKnownNoise, Inputs->Surface.Current.IsValid()};
 		assert(!Form.bExtent || !Form.bColor);
 		assert(!Form.bKnownNoise || Form.bColor);
 		assert(!Form.bPair || Form.bColor);
@@ -226,7 +229,8 @@ FSignals AddDenoise(
 	{
 		const FSignals Inputs = Results;
 		for (size_t I = 0; I < Denoisers.size(); ++I) { Results[I] = Denoisers[I].CreateImage(Pass + 1 == Passes, Pass + 1); }
-		AddFilterPass(Context, Denoisers[0].Name + "Filter" + std::to_string(Pass), Inputs, Results, Settings, Filter, Pass);
+		AddFilterPass(Context, Denoisers[0].Name + "Filter" + std::to_string(Pass), Denoisers[0].GetSurface().Current, Inputs, Results,
+		    Settings, Filter, Pass);
 	}
 	return Results;
 }

@@ -41,7 +41,10 @@ struct FDenoiseInputs
 	FGraphTexture Change;
 	/// For colours, RG16_FLOAT: share of them, and radiance, that may have changed since the last frame, nobody knows how. Invalid: none.
 	FGraphTexture ChangedShare;
-	FShadowChanges Changes;  ///< of the shadows of the sun or of lamps; what is not known is looked for in the signal
+	FShadowChanges Changes; ///< of the shadows of the sun or of lamps; what is not known is looked for in the signal
+	/// For colours: what pixels show where that is not their surface, and Anchors of it. A valid Previous says that there is a history. The
+	/// other members do not count. Invalid: FFrameContext::Surface, which is made where it is not there.
+	FSurfaceTextures Surface;
 	FHistoryTexture History; ///< what RequireDenoiseHistory gave in this frame; Current is invalid: nobody called it
 };
 
@@ -63,6 +66,7 @@ struct FDenoiseForm
 	bool bPair = false;                 ///< AddDenoisePair; colours only
 	EPixelRate Rate = EPixelRate::Full; ///< FDenoiseInputs::Rate
 	bool bKnownNoise = false;           ///< FDenoiseInputs::bKnownNoise
+	bool bSparse = false;               ///< FDenoiseInputs::Surface is valid: most tiles of the screen may show nothing
 };
 /// Lists the compute shaders of the filter.
 void ListDenoiseShaders(const FDenoiseForm& Form, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out);

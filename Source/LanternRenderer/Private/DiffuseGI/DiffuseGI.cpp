@@ -144,6 +144,11 @@ FPassRays ChooseDiffuseGIRays(const FPassQuery& Query)
 	return Rays;
 }
 
+ERayPath ChooseCachedLightPath(const FPassQuery& Query)
+{
+	return BruteForce.EndsInRadianceCells() ? ChooseBruteForcePath(BruteForce, Query) : ERayPath::None;
+}
+
 bool IsDiffuseGIFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
 
 void ListDiffuseGIFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out)

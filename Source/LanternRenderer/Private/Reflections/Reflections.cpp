@@ -2,6 +2,7 @@
 #include "Reflections/Reflections.h"
 
 #include "BruteForce/BruteForce.h"
+#include "Reflections/ReflectionPaths.h"
 #include "SignalPasses.h"
 
 namespace Lantern
@@ -9,35 +10,75 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarEnable(
-    "r.RT.Reflections", false, "Traces reflections by paths, without a filter. If off, unoccluded light of the sky stands in.");
+TRTConsoleVariable<int32_t> CVarRoute("r.RT.Reflections", 0,
+    "Reflections. 0: off, and paths of global illumination or unoccluded light of the sky stand in. 1: paths that end in the radiance "
+    "cells "
+    "of r.RT.GI 2 and 3, with a filter that follows what mirrors show. 2: paths of r.RT.Reflections.Bounces, by brute force.",
+    {0, 2});
 TRTConsoleVariable<int32_t> CVarSamples("r.RT.Reflections.Samples", 1, "Number of reflection paths per pixel.", {1, 64});
 TRTConsoleVariable<int32_t> CVarBounces("r.RT.Reflections.Bounces", 1,
     "Number of surfaces that may reflect light before it reaches the one that mirrors it. The reference of as many bounces has one "
-    "scattering event more, the last.",
+    "scattering event more, the last. Does not count where radiance cells hold the light of further surfaces.",
     {1, 4});
 TRTConsoleVariable<float> CVarMaxRoughness("r.RT.Reflections.MaxRoughness", 1.0f,
-    "Surfaces that are rougher have no reflections traced; the sky's ambient light stands in. 1: all are traced.", {0.0, 1.0});
-constexpr FBruteForcePass BruteForce{
-    ESignal::Reflections, "r.RT.Reflections", [] { return CVarEnable.GetOnRenderThread(); }, CVarSamples, CVarBounces, &CVarMaxRoughness};
+    "Surfaces that are rougher have no reflections traced: paths of global illumination stand in, or the sky's ambient light. With "
+    "r.RT.Reflections 1, reflections fade out over another 0.1. 1: all are traced.",
+    {0.0, 1.0});
+TRTConsoleVariable<int32_t> CVarPath("r.RT.Reflections.Path", 0,
+    "How reflections of r.RT.Reflections 1 trace. 0: by the pipeline where there is one. 1: ray-tracing pipeline. 2: ray queries, which "
+    "see "
+    "all materials as the standard program shows them, and no own shapes.",
+    {0, 2});
+constexpr int32_t PathRoute = 1, BruteForceRoute = 2;
+constexpr FBruteForcePass BruteForce{ESignal::Reflections, "r.RT.Reflections",
+    [] { return CVarRoute.GetOnRenderThread() == BruteForceRoute; }, CVarSamples, CVarBounces, &CVarMaxRoughness};
+
+bool IsPathRoute() { return CVarRoute.GetOnRenderThread() == PathRoute; }
+
+FReflectionPathSettings GetPathSettings(const FPassQuery& Query)
+{
+	FReflectionPathSettings Settings;
+	const bool bAny = IsRayTracingEnabled() && Query.Facts.Objects > 0 && HasAnyLight(Query.Facts);
+	if (bAny) { Settings.Path = ChooseShadingRayPath(Query, CVarPath, "reflections are"); }
+	Settings.Samples = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
+	Settings.Bounces = static_cast<uint32_t>(CVarBounces.GetOnRenderThread());
+	Settings.MaxRoughness = CVarMaxRoughness.GetOnRenderThread();
+	return Settings;
+}
+
+float GetRoughness()
+{
+	return IsPathRoute() ? GetTracedRoughness(CVarMaxRoughness.GetOnRenderThread()) : CVarMaxRoughness.GetOnRenderThread();
+}
 } // namespace
 
 float GetReflectedRoughness(const FPassQuery& Query)
 {
-	const bool bTraced = IsMade(ESignal::Reflections, Query.Requests) && ChooseBruteForcePath(BruteForce, Query) != ERayPath::None;
-	return bTraced ? CVarMaxRoughness.GetOnRenderThread() : -1.0f;
+	if (!IsMade(ESignal::Reflections, Query.Requests)) { return -1.0f; }
+	const ERayPath Path = IsPathRoute() ? GetPathSettings(Query).Path : ChooseBruteForcePath(BruteForce, Query);
+	return Path != ERayPath::None ? GetRoughness() : -1.0f;
 }
 
-float GetReflectedRoughnessInReference()
+float GetReflectedRoughnessInReference() { return IsRayTracingEnabled() && CVarRoute.GetOnRenderThread() != 0 ? GetRoughness() : -1.0f; }
+
+FPassRays ChooseReflectionsRays(const FPassQuery& Query)
 {
-	return IsRayTracingEnabled() && CVarEnable.GetOnRenderThread() ? CVarMaxRoughness.GetOnRenderThread() : -1.0f;
+	return IsPathRoute() ? ChooseReflectionPaths(GetPathSettings(Query), Query) : ChooseBruteForceRays(BruteForce, Query);
 }
 
-FPassRays ChooseReflectionsRays(const FPassQuery& Query) { return ChooseBruteForceRays(BruteForce, Query); }
+bool AreReflectionsFiltered(const FRTScene&) { return IsPathRoute() && AreReflectionPathsFiltered(); }
+
+void ListReflectionFilters(const FRTScene&, const FPassQuery&, std::vector<FShaderSource>& Out)
+{
+	if (IsPathRoute()) { ListReflectionPathFilters(Out); }
+}
 
 FGraphTexture AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	return AddBruteForcePass(BruteForce, Context, GBuffer).Lobe;
+	if (!IsPathRoute()) { return AddBruteForcePass(BruteForce, Context, GBuffer).Lobe; }
+	const FReflectionPathSettings Settings = GetPathSettings({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
+	const bool bMade = Settings.Path != ERayPath::None && IsMade(ESignal::Reflections, Context.Signals);
+	return bMade ? AddReflectionPaths(Settings, Context, GBuffer) : FGraphTexture();
 }
 
 } // namespace Lantern

@@ -1,4 +1,4 @@
-// ESignal::Reflections: what specular lobes reflect, by brute force so far.
+// ESignal::Reflections: what specular lobes reflect, by paths that end in radiance cells or by brute force.
 #pragma once
 
 #include "RayPath.h"
@@ -11,6 +11,8 @@ FPassRays ChooseReflectionsRays(const FPassQuery& Query);
 float GetReflectedRoughness(const FPassQuery& Query);
 /// The same for references, which know no requests.
 float GetReflectedRoughnessInReference();
+bool AreReflectionsFiltered(const FRTScene&);
+void ListReflectionFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out);
 FGraphTexture AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer);
 
 } // namespace Lantern

@@ -1,0 +1,55 @@
+// Lists the pixels whose reflections are traced.
+#version 460
+#include "../Shared/ReflectionTypes.h"
+#include "../Shared/TileTypes.h"
+#include "../Library/GBuffer.glsl"
+#include "../Library/RadianceCells.glsl"
+#include "../Library/UintTextures.glsl"
+#include "../Rays/ThreadList.glsl"
+
+layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+layout(push_constant, scalar) uniform FPush { FReflectionListConstants Push; };
+
+const float LeastReflectance = 0.004; // nobody sees less
+
+shared uint Count, First;
+
+bool IsTraced(FViewConstants View, ivec2 Pixel)
+{
+	float Depth = LoadDepth(Push.Pixels.Depth, Pixel);
+	if (!(Depth > 0.0)) { return false; }
+	vec4 Material = texelFetch(Textures[Push.Pixels.Material], Pixel, 0);
+	if (Material.x > Push.MaxRoughness) { return false; }
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Pixels.Normals, Pixel, Depth);
+	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.Pixels.BaseColor], Pixel, 0), Material);
+	return MaxComponent(SpecularReflectance(Brdf, dot(Point.BentN, Point.V), Material.x)) >= LeastReflectance;
+}
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (gl_LocalInvocationIndex == 0u) { Count = 0u; }
+	barrier();
+	bool bInside = !IsOutsideView(View, uvec2(Pixel));
+	bool bTraced = bInside && IsTraced(View, Pixel);
+	uint Place = bTraced ? atomicAdd(Count, 1u) : 0u;
+	barrier();
+	if (gl_LocalInvocationIndex == 0u && Count > 0u) { First = ReserveThreads(Push.List, Count); }
+	barrier();
+	if (!bInside) { return; }
+	if (Push.RadianceCells != FAddress(0) && all(equal(Pixel & 1, ivec2(0))))
+	{
+		FAddress Votes = FRadianceGridRef(Push.RadianceCells).Data.Votes;
+		FRadianceVoteRef(Votes).Data[Push.FirstVoter + VoterOfPixel(View, uvec2(Pixel))].Slot = NO_RADIANCE_CELL;
+	}
+	if (bTraced)
+	{
+		FThreadListRef(Push.List).Threads[First + Place] = uint(Pixel.y) * View.Width + uint(Pixel.x);
+		return;
+	}
+	imageStore(Images[Push.Radiance], Pixel, vec4(0.0));
+	if (Push.Surface == NO_TEXTURE) { return; }
+	imageStore(Images[Push.Surface], Pixel, vec4(0.0));
+	imageStore(UintImages[Push.Anchors], Pixel, uvec4(0u));
+}

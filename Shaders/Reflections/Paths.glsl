@@ -1,0 +1,62 @@
+// Reflections of listed pixels: a path through the specular lobe of each. Smooth surfaces show what they mirror by light sampling, and
+// further surfaces by radiance cells; rough ones show cells. The ray-tracing pipeline and the ray-query path share it.
+// RADIANCE_CELLS: there are cells. Else paths go on for as many bounces as they may.
+// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
+#ifndef LANTERN_REFLECTION_PATHS_GLSL
+#define LANTERN_REFLECTION_PATHS_GLSL
+
+#define KEEPS_HIT
+#include "../Shared/ReflectionTypes.h"
+#include "../Library/Rgbe.glsl"
+#include "../Library/UintTextures.glsl"
+#include "../Rays/IndirectSampling.glsl"
+#include "../Rays/ThreadList.glsl"
+
+layout(push_constant, scalar) uniform FPush { FReflectionPathConstants Push; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FReflectionHitRef { FReflectionHit Data[]; };
+
+#ifdef RADIANCE_CELLS
+void BeginLookUps(FViewConstants View, uvec2 Pixel)
+{
+	if (Push.RadianceCells == FAddress(0)) { return; }
+	FRadianceGrid Grid = FRadianceGridRef(Push.RadianceCells).Data;
+	FAddress Votes = VotesInTurn(View, Pixel) ? Grid.Votes : FAddress(0);
+	BeginRadianceLookUps(Push.RadianceCells, View, Votes, Push.FirstVoter + VoterOfPixel(View, Pixel), 2u, HashLookUps(View, Pixel));
+	RadianceNear = Grid.NearCells;
+}
+#endif
+
+// Number: of the launch's thread.
+void ReflectPixel(uint Number)
+{
+	uint Thread;
+	if (!FindThread(Push.List, Number, Thread)) { return; }
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	ivec2 Pixel = ivec2(Thread % View.Width, Thread / View.Width);
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Pixels.Normals, Pixel, LoadDepth(Push.Pixels.Depth, Pixel));
+	vec4 Material = texelFetch(Textures[Push.Pixels.Material], Pixel, 0);
+	FBrdf Lobe = MakeSpecularLobe(MakeGBufferBrdf(texelFetch(Textures[Push.Pixels.BaseColor], Pixel, 0), Material));
+	bool bMirror = IsMirror(Lobe);
+	KeptHit = NothingKept;
+	bLightsHits = Material.x < Push.LitRoughness;
+	bKeepsEmission = bMirror;
+#ifdef RADIANCE_CELLS
+	BeginLookUps(View, uvec2(Pixel));
+#endif
+	vec3 Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, Lobe, Push.SamplesPerPixel, Push.MaxBounces, 0x9e3779b9u);
+	float NdotV = dot(Point.BentN, Point.V);
+	vec3 Albedo = max(SpecularReflectance(Lobe, NdotV, Material.x), vec3(1.0e-4));
+	if (bMirror)
+	{
+		// The filter gets what the mirrored surface receives, as it does elsewhere. Its texture is shown as it is.
+		vec3 Emission = KeptHit.Emission * SpecularFresnel(Lobe, NdotV) / Albedo;
+		imageStore(UintImages[Push.Mirrored], Pixel, uvec4(PackRgbe(KeptHit.Albedo, vec3(0.5)), PackRgbe(Emission, vec3(0.5)), 0u, 0u));
+		Albedo *= UnpackRgbe(PackRgbe(KeptHit.Albedo, vec3(0.5)));
+	}
+	bool bNoise = !bMirror || KeptHit.Distance >= 0.0; // a mirror shows the sky as it is
+	imageStore(Images[Push.Radiance], Pixel, RoundToHalf(vec4(ClampToFinite(Radiance / Albedo), bNoise ? 1.0 : 0.0)));
+	FReflectionHitRef(Push.Hits).Data[Number] = FReflectionHit(KeptHit.Distance, PackOct(KeptHit.Normal), KeptHit.Object);
+}
+
+#endif

@@ -1,0 +1,88 @@
+// Reflections: constants of their passes, and what their rays leave.
+#ifndef LANTERN_REFLECTION_TYPES_H
+#define LANTERN_REFLECTION_TYPES_H
+
+#include "SceneTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+// What the ray of a listed pixel met: see FKeptHit.
+struct FReflectionHit
+{
+	float Distance; // by way of further mirrors, metres; below 0: the sky
+	uint Normal;    // geometric, octahedral
+	uint Object;    // into FObjectData[]
+};
+LANTERN_ASSERT_SIZE(FReflectionHit, 12);
+
+// The G-buffer as sampled indices.
+struct FReflectionPixels
+{
+	uint Depth, Normals, BaseColor, Material;
+};
+LANTERN_ASSERT_SIZE(FReflectionPixels, 16);
+
+// Constants of Reflections/List.comp.
+struct FReflectionListConstants
+{
+	FPassConstants Pass;
+	FReflectionPixels Pixels;
+	uint Radiance, Surface, Anchors; // storage indices, cleared where nothing is traced; the last two may be NO_TEXTURE
+	float MaxRoughness;              // of what is traced, the fade included
+	FAddress List;                   // FThreadList
+	FAddress RadianceCells;          // FRadianceGrid; 0: there are none
+	uint FirstVoter;                 // place in FRadianceGrid::Votes from which on those of this pass lie
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FReflectionListConstants, 72);
+
+// Constants of Reflections/Paths.rgen and .comp.
+struct FReflectionPathConstants
+{
+	FPassConstants Pass;
+	FReflectionPixels Pixels;
+	uint Radiance; // storage index: over the directional albedo of the lobe, and of a mirrored surface. a: 0 if it has no noise, else 1
+	uint Mirrored; // storage index: albedo and emission of what mirrors show, rgb9e5 each; other pixels have none
+	uint SamplesPerPixel;
+	uint MaxBounces;          // scattering events, that at the pixel included
+	float LitRoughness;       // smoother surfaces show hits by light sampling, rougher ones by radiance cells
+	uint FirstVoter;          // as above
+	FAddress List;            // FThreadList
+	FAddress Hits;            // FReflectionHit[], by place in the list
+	FAddress RadianceCells;   // as above
+};
+LANTERN_ASSERT_SIZE(FReflectionPathConstants, 80);
+
+// Constants of Reflections/Surface.comp.
+struct FReflectionSurfaceConstants
+{
+	FPassConstants Pass;
+	FReflectionPixels Pixels;
+	uint Motion;          // sampled index: FGBuffer::Motion; NO_TEXTURE: there is none
+	uint bNamesObjects;   // FGBuffer::bNamesObjects
+	uint PreviousSurface; // sampled index; NO_TEXTURE: there is nothing to reproject
+	uint PreviousAnchors; // sampled index, or NO_TEXTURE
+	FAddress List;        // FThreadList
+	FAddress Hits;        // FReflectionHit[]
+	uint OutSurface;      // storage index
+	uint OutAnchors;      // storage index
+};
+LANTERN_ASSERT_SIZE(FReflectionSurfaceConstants, 72);
+
+// Constants of Reflections/Combine.comp.
+struct FReflectionCombineConstants
+{
+	FPassConstants Pass;
+	FReflectionPixels Pixels;
+	uint Radiance;      // sampled index: filtered
+	uint Mirrored;      // sampled index: as above
+	uint Output;        // storage index: the signal
+	float MaxRoughness; // up to which reflections count in full
+	float Fade;         // roughness over which they fade out from there
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FReflectionCombineConstants, 56);
+
+LANTERN_SHARED_END
+
+#endif

@@ -1,0 +1,282 @@
+// The passes of reflections: the list of pixels, their paths, what these show, the filter, and the signal.
+#include "Reflections/ReflectionPaths.h"
+
+#include <algorithm>
+
+#include "BruteForce/BruteForce.h"
+#include "Denoise/Denoise.h"
+#include "LanternCore/FrameGraph/History.h"
+#include "Lights/LightCells.h"
+#include "LocalLights/Emitters.h"
+#include "RadianceCells/RadianceCells.h"
+#include "Rays/ThreadList.h"
+#include "ReflectionTypes.h"
+#include "SignalPasses.h"
+#include "TileTypes.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<float> CVarLitRoughness("r.RT.Reflections.LitRoughness", 0.25f,
+    "Smoother surfaces show what they mirror lit by the sun and lamps, and further surfaces by radiance cells. Rougher ones show radiance "
+    "cells, which are cheaper and blurred.",
+    {0.0, 1.0});
+TRTConsoleVariable<bool> CVarMotion(
+    "r.RT.Debug.Reflections.Motion", true, "Planted fault. If off, what a mirror shows counts as standing still, however it moves.");
+const FDenoiseVariables Denoise("r.RT.Reflections", FDenoiseDefaults{.bColor = true});
+constexpr uint32_t BouncesWithoutCell = 3; // of a path that would end in a cell and meets none
+
+FShaderSource MakeSource(const char* Name) { return MakeComputeSource(std::string("Reflections/") + Name + ".comp"); }
+
+FShaderSource MakeSurfaceSource()
+{
+	FShaderDefines Defines = MakeValidationDefines();
+	if (!CVarMotion.GetOnRenderThread()) { Defines.emplace_back("NO_REFLECTED_MOTION", "1"); }
+	return MakeComputeSource("Reflections/Surface.comp", std::move(Defines));
+}
+
+FShaderSource MakeCombineSource(const FSceneFacts& Facts)
+{
+	return MakeComputeSource("Reflections/Combine.comp", Facts.bSky ? FShaderDefines{{"HAS_SKY", "1"}} : FShaderDefines{});
+}
+
+/// The paths of one frame.
+struct FPaths
+{
+	const FReflectionPathSettings& Settings;
+	FRayDispatch Dispatch;
+	IRTPipeline *List = nullptr, *Surface = nullptr, *Combine = nullptr;
+	const FRadianceCells* Cells = nullptr; ///< null: there are none
+	uint32_t FirstVoter = 0;
+	FGraphTexture Radiance;    ///< over the directional albedo of lobes, and of what mirrors show
+	FGraphTexture Mirrored;    ///< albedo and emission of what mirrors show
+	FGraphBuffer Threads;      ///< list of pixels, row by row
+	FGraphBuffer Hits;         ///< FReflectionHit
+	FSurfaceTextures Shown;    ///< what reflections show; Current is invalid: nobody asks
+	FGraphTexture LastAnchors; ///< of the frame before; invalid: there are none
+};
+
+FReflectionPixels GetPixels(FPassContext& Pass, const FGBuffer& GBuffer)
+{
+	return {GetSampledIndex(Pass, GBuffer.Depth), GetSampledIndex(Pass, GBuffer.Normals), GetSampledIndex(Pass, GBuffer.BaseColor),
+	    GetSampledIndex(Pass, GBuffer.Material)};
+}
+
+void DeclarePixels(FPassBuilder& Builder, const FGBuffer& GBuffer)
+{
+	for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, GBuffer.BaseColor, GBuffer.Material})
+	{
+		if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+	}
+}
+
+/// False: an error, which the context has.
+bool RequireShown(FFrameContext& Context, FPaths& Paths)
+{
+	FHistoryTexture Surface, Anchors;
+	FRTStatus Status = Context.History->GetTexture("ReflectionSurface", {Context.Width, Context.Height, ERTFormat::RG32_FLOAT}, Surface);
+	if (Status)
+	{
+		Status = Context.History->GetTexture("ReflectionAnchors", {Context.Width, Context.Height, ERTFormat::RG32_UINT}, Anchors);
+	}
+	if (!Status)
+	{
+		Context.Fail(Status);
+		return false;
+	}
+	Paths.Shown.Current = Surface.Current;
+	Paths.Shown.Previous = Surface.Previous;
+	Paths.Shown.Anchors = Anchors.Current;
+	Paths.LastAnchors = Anchors.Previous;
+	return true;
+}
+
+void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths)
+{
+	const FFrameContext* const Frame = &Context;
+	Context.Graph.AddPass("ReflectionsList", [&](FPassBuilder& Builder) -> FPassExecute {
+		DeclarePixels(Builder, GBuffer);
+		AppendToThreadList(Builder, Paths.Threads);
+		ReadRadianceCells(Builder, Paths.Cells);
+		Builder.Write(Paths.Radiance, ERTAccess::StorageWrite);
+		for (const FGraphTexture Texture : {Paths.Shown.Current, Paths.Shown.Anchors})
+		{
+			if (Texture.IsValid()) { Builder.Write(Texture, ERTAccess::StorageWrite); }
+		}
+		Context.Tokens.LeaveAlone(Builder);
+		Builder.AllowAsync();
+		return [=, MaxRoughness = GetTracedRoughness(Paths.Settings.MaxRoughness)](FPassContext& Pass) {
+			FReflectionListConstants C{};
+			C.Pass = Frame->Pass;
+			C.Pixels = GetPixels(Pass, GBuffer);
+			C.Radiance = GetStorageIndex(Pass, Paths.Radiance);
+			C.Surface = GetStorageIndex(Pass, Paths.Shown.Current);
+			C.Anchors = GetStorageIndex(Pass, Paths.Shown.Anchors);
+			C.MaxRoughness = MaxRoughness;
+			C.List = GetAddress(Pass, Paths.Threads);
+			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
+			C.FirstVoter = Paths.FirstVoter;
+			Dispatch2D(Pass, Paths.List, C, Frame->Width, Frame->Height, TILE_SIZE);
+		};
+	});
+}
+
+void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths)
+{
+	const FFrameContext* const Frame = &Context;
+	const FLightCellsOfFrame& LightCells = RequireLightCells(Context, GBuffer);
+	const uint32_t Bounces = Paths.Cells ? std::max(Paths.Settings.Bounces, BouncesWithoutCell) : Paths.Settings.Bounces;
+	Context.Graph.AddPass("Reflections", [&](FPassBuilder& Builder) -> FPassExecute {
+		DeclarePixels(Builder, GBuffer);
+		LaunchFromThreadList(Builder, Paths.Threads);
+		ReadRadianceCells(Builder, Paths.Cells);
+		ReadLightCells(Builder, LightCells, true);
+		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Mirrored}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
+		Builder.Write(Paths.Hits, ERTAccess::StorageWrite);
+		Builder.AllowAsync();
+		return [=, Samples = Paths.Settings.Samples](FPassContext& Pass) {
+			FReflectionPathConstants C{};
+			C.Pass = Frame->Pass;
+			C.Pixels = GetPixels(Pass, GBuffer);
+			C.Radiance = GetStorageIndex(Pass, Paths.Radiance);
+			C.Mirrored = GetStorageIndex(Pass, Paths.Mirrored);
+			C.SamplesPerPixel = Samples;
+			C.MaxBounces = Bounces + 1;
+			C.LitRoughness = CVarLitRoughness.GetOnRenderThread();
+			C.List = GetAddress(Pass, Paths.Threads);
+			C.Hits = GetAddress(Pass, Paths.Hits);
+			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
+			C.FirstVoter = Paths.FirstVoter;
+			Pass.CountRays(uint64_t(Frame->Width) * Frame->Height * Samples * GetMaxPathRays(Frame->Facts, Bounces));
+			TraceThreadList(Pass, *Frame, Paths.Dispatch, Paths.Threads, C, Frame->Width, Frame->Height);
+		};
+	});
+}
+
+void AddSurfacePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths)
+{
+	const FFrameContext* const Frame = &Context;
+	Context.Graph.AddPass("ReflectionsSurface", [&](FPassBuilder& Builder) -> FPassExecute {
+		DeclarePixels(Builder, GBuffer);
+		LaunchFromThreadList(Builder, Paths.Threads);
+		Builder.Read(Paths.Hits, ERTAccess::ShaderRead);
+		for (const FGraphTexture Texture : {GBuffer.Motion, Paths.Shown.Previous, Paths.LastAnchors})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
+		for (const FGraphTexture Texture : {Paths.Shown.Current, Paths.Shown.Anchors}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
+		Builder.AllowAsync();
+		return [=](FPassContext& Pass) {
+			FReflectionSurfaceConstants C{};
+			C.Pass = Frame->Pass;
+			C.Pixels = GetPixels(Pass, GBuffer);
+			C.Motion = GetSampledIndex(Pass, GBuffer.Motion);
+			C.bNamesObjects = GBuffer.bNamesObjects ? 1 : 0;
+			C.PreviousSurface = GetSampledIndex(Pass, Paths.Shown.Previous);
+			C.PreviousAnchors = GetSampledIndex(Pass, Paths.LastAnchors);
+			C.List = GetAddress(Pass, Paths.Threads);
+			C.Hits = GetAddress(Pass, Paths.Hits);
+			C.OutSurface = GetStorageIndex(Pass, Paths.Shown.Current);
+			C.OutAnchors = GetStorageIndex(Pass, Paths.Shown.Anchors);
+			DispatchThreadList(Pass, Paths.Surface, Paths.Threads, C);
+		};
+	});
+}
+
+FGraphTexture AddCombinePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths, FGraphTexture Radiance)
+{
+	const FFrameContext* const Frame = &Context;
+	const FSignalInfo& Info = GetSignalInfo(ESignal::Reflections);
+	const FGraphTexture Output =
+	    Context.Graph.CreateTexture({Context.Width, Context.Height, Info.Format, ERTTextureUsage::CopySource}, Info.Pass);
+	Context.Graph.AddPass("ReflectionsCombine", [&](FPassBuilder& Builder) -> FPassExecute {
+		DeclarePixels(Builder, GBuffer);
+		for (const FGraphTexture Texture : {Radiance, Paths.Mirrored}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		Builder.Write(Output, ERTAccess::StorageWrite);
+		Context.Tokens.LeaveAlone(Builder);
+		Builder.AllowAsync();
+		return [=, MaxRoughness = Paths.Settings.MaxRoughness](FPassContext& Pass) {
+			FReflectionCombineConstants C{};
+			C.Pass = Frame->Pass;
+			C.Pixels = GetPixels(Pass, GBuffer);
+			C.Radiance = GetSampledIndex(Pass, Radiance);
+			C.Mirrored = GetSampledIndex(Pass, Paths.Mirrored);
+			C.Output = GetStorageIndex(Pass, Output);
+			C.MaxRoughness = MaxRoughness;
+			C.Fade = ReflectionFade;
+			Dispatch2D(Pass, Paths.Combine, C, Frame->Width, Frame->Height, TILE_SIZE);
+		};
+	});
+	return Output;
+}
+} // namespace
+
+FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const FPassQuery& Query)
+{
+	FPassRays Rays;
+	Rays.Path = Settings.Path;
+	if (Rays.Path == ERayPath::None) { return Rays; }
+	Rays.Defines = MakePathDefines(Query.Facts);
+	if (IsEmissionDirect(Query, GetSignalPass(ESignal::Reflections).EmissionIn)) { Rays.Defines.emplace_back("EMISSIVE_IS_DIRECT", "1"); }
+	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
+	if (ChooseRadianceCellPath(Query) != ERayPath::None) { AddRadianceCellDefines(Rays.Defines); }
+	if (Rays.Path == ERayPath::Pipeline) { AddReorderDefine(Query.Capabilities, Rays.Defines); }
+	Rays.bShadesHits = true;
+	Rays.Shaders = "Reflections/Paths";
+	ListLightCellShaders(Query.Facts, Rays.Compute);
+	Rays.Compute.push_back(MakeSource("List"));
+	Rays.Compute.push_back(MakeCombineSource(Query.Facts));
+	return Rays;
+}
+
+bool AreReflectionPathsFiltered() { return Denoise.IsEnabled(); }
+
+void ListReflectionPathFilters(std::vector<FShaderSource>& Out)
+{
+	if (!Denoise.IsEnabled()) { return; }
+	Out.push_back(MakeSurfaceSource());
+	ListDenoiseShaders({.bColor = true, .bSparse = true}, Denoise.Get(), Out);
+}
+
+FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	const FPassQuery Query{Context.Device.GetCapabilities(), Context.Facts, Context.Signals};
+	const std::optional<FRayDispatch> Dispatch =
+	    RequireRayDispatch(Context, ESignal::Reflections, ChooseSignalRays(Context, ESignal::Reflections));
+	const bool bFiltered = Denoise.IsEnabled();
+	FPaths Paths{Settings};
+	Paths.List = RequireCompute(Context, MakeSource("List")); // all are asked for at once
+	Paths.Combine = RequireCompute(Context, MakeCombineSource(Context.Facts));
+	Paths.Surface = bFiltered ? RequireCompute(Context, MakeSurfaceSource()) : nullptr;
+	if (!Dispatch || !Paths.List || !Paths.Combine || (bFiltered && !Paths.Surface)) { return {}; }
+	Paths.Dispatch = *Dispatch;
+	if (bFiltered && !RequireShown(Context, Paths)) { return {}; }
+	const ERayPath Cached = ChooseRadianceCellPath(Query);
+	if (Cached != ERayPath::None && Dispatch->Has("RADIANCE_CELLS"))
+	{
+		Paths.FirstVoter = CountRadianceVoters(Context);
+		Paths.Cells = RequireRadianceCells(Context, Cached, Paths.FirstVoter + CountBlockVoters(Context));
+	}
+	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
+	Paths.Radiance = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, "ReflectedRadiance");
+	Paths.Mirrored = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG32_UINT}, "ReflectedSurfaces");
+	Paths.Threads = AddThreadList(Context, Pixels, "ReflectionsThreads");
+	Paths.Hits = Context.Graph.CreateBuffer({Pixels * sizeof(FReflectionHit)}, "ReflectionHits");
+	AddListPass(Context, GBuffer, Paths);
+	AddTracePass(Context, GBuffer, Paths);
+	FGraphTexture Radiance = Paths.Radiance;
+	if (bFiltered)
+	{
+		AddSurfacePass(Context, GBuffer, Paths);
+		FDenoiseInputs Inputs;
+		Inputs.Name = GetSignalInfo(ESignal::Reflections).Pass;
+		Inputs.Signal = Radiance;
+		Inputs.Surface = Paths.Shown;
+		Radiance = AddDenoise(Context, GBuffer, Inputs, Denoise);
+	}
+	return AddCombinePass(Context, GBuffer, Paths, Radiance);
+}
+
+} // namespace Lantern

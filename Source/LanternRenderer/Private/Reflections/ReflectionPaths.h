@@ -1,0 +1,28 @@
+// Reflections whose paths end in radiance cells, filtered by what they show (Shaders/Reflections/).
+#pragma once
+
+#include "RayPath.h"
+
+namespace Lantern
+{
+
+/// What Reflections.cpp's variables ask for.
+struct FReflectionPathSettings
+{
+	ERayPath Path = ERayPath::None;
+	uint32_t Samples = 1, Bounces = 1; ///< Bounces: of paths that end in no cell
+	float MaxRoughness = 1.0f;         ///< up to which reflections count in full
+};
+
+/// Roughness over which reflections fade out: neither materials nor textures show where they end.
+constexpr float ReflectionFade = 0.1f;
+/// Returns the roughness up to which reflections are traced.
+inline float GetTracedRoughness(float MaxRoughness) { return MaxRoughness < 1.0f ? MaxRoughness + ReflectionFade : 1.0f; }
+
+FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const FPassQuery& Query);
+bool AreReflectionPathsFiltered();
+void ListReflectionPathFilters(std::vector<FShaderSource>& Out);
+/// Adds the passes, and returns the signal. Invalid: shaders are being compiled, or an error, which the context then has.
+FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrameContext& Context, const FGBuffer& GBuffer);
+
+} // namespace Lantern

@@ -1,0 +1,169 @@
+// Reflections whose paths end in radiance cells (r.RT.Reflections 1): against the reference, and what mirrors show while all moves.
+#include <cmath>
+
+#include "SignalFixture.h"
+
+namespace Lantern
+{
+
+namespace
+{
+class FReflectionPathsTest : public FSignalTest
+{
+protected:
+	static constexpr uint32_t Frames = 48;
+	static constexpr double FrameSeconds = 1.0 / 60.0;
+
+	void SetUp() override
+	{
+		FSignalTest::SetUp();
+		SetVariable("r.RT.GI", "3");
+		SetVariable("r.RT.GI.Rate", "2");
+		SetVariable("r.RT.Reflections", "1");
+		SetVariable("r.RT.GI.Cells.Capacity", "65536"); // pictures here have few pixels
+	}
+
+	/// What moves reaches its last place when the last of Frames ends.
+	[[nodiscard]] bool LoadMirror(bool bMirrorMoves)
+	{
+		FTestScene Room("mirror and mover");
+		FHostMaterial Silver;
+		Silver.Roughness = 0.0f;
+		const int32_t Mirror = Room.AddMaterial(Silver), Floor = Room.AddLambert(glm::vec3(0.6f), glm::vec3(0), true),
+		              Red = Room.AddLambert({0.8f, 0.2f, 0.1f}, glm::vec3(0), true),
+		              Blue = Room.AddLambert({0.1f, 0.2f, 0.7f}, glm::vec3(0), true);
+		Room.AddNode(Room.AddMesh({FTestScene::MakeFloor(Floor, 8.0f)}));
+		// A board behind the camera, with slats before it that throw stripes of shadow on it.
+		std::vector<FTestScene::FQuad> Board{{Red, {{8, 0, 5}, {-8, 0, 5}, {-8, 3, 5}, {8, 3, 5}}}};
+		for (int I = -6; I < 6; ++I)
+		{
+			const float X = 1.2f * float(I);
+			Board.push_back({Blue, {{X + 0.4f, 0, 3.6f}, {X, 0, 3.6f}, {X, 5, 3.6f}, {X + 0.4f, 5, 3.6f}}});
+		}
+		const int32_t Mover = Room.AddNode(Room.AddMesh(Board));
+		const int32_t Glass =
+		    Room.AddNode(Room.AddMesh({{Mirror, {{-1.5f, 0.2f, -2}, {1.5f, 0.2f, -2}, {1.5f, 2.2f, -2}, {-1.5f, 2.2f, -2}}}}));
+		const float Seconds = float(Frames * FrameSeconds);
+		FHostAnimation Motion{.Name = "Motion", .Channels = {}, .Duration = Seconds};
+		const auto Move = [&](int32_t Node, glm::vec3 From, glm::vec3 To) {
+			FHostChannel Channel{.Node = Node, .Times = {0.0f, Seconds}, .Values = {glm::vec4(From, 0), glm::vec4(To, 0)}};
+			Room.Scene.Nodes[static_cast<size_t>(Node)].Matrix.reset();
+			Motion.Channels.push_back(Channel);
+		};
+		Move(Mover, {-5, 0, 0}, {1, 0, 0});
+		if (bMirrorMoves) { Move(Glass, {0, 0, -0.4f}, {0, 0, 0}); }
+		Room.Scene.Animations.push_back(Motion);
+		if (!Load(std::move(Room.Scene))) { return false; }
+		SetSun(10.0, 4.0f, {-0.4, -0.6, 1.0});
+		SetSky({0.3f, 0.35f, 0.4f});
+		return true;
+	}
+
+	/// T: 0 to 1, of the camera's way.
+	static FView Look(double T)
+	{
+		FView View = LookAt({-0.8 + 0.6 * T, 1.2, 2.4}, {-0.1, 1.2, -2}, 0.5f, 144, 96);
+		View.DeltaSeconds = float(FrameSeconds);
+		return View;
+	}
+
+	/// The last of Frames, in which the camera and the scene move, or stand where they end.
+	static FImage RenderLast(bool bMoves)
+	{
+		FFrameCapture Capture;
+		Capture.Signals.Add(ESignal::Reflections);
+		FCapturedFrame Frame;
+		GetEngine().SetFrameIndex(0); // random numbers begin anew
+		for (uint32_t I = 1; I <= Frames; ++I)
+		{
+			FView View = Look(bMoves ? double(I) / Frames : 1.0);
+			View.bCut = I == 1;
+			const FRTStatus Status = GetEngine().RenderFrame(View, (bMoves ? I : Frames) * FrameSeconds, Capture, &Frame);
+			EXPECT_TRUE(Status) << Status.Message;
+		}
+		return Frame.Get(ESignal::Reflections);
+	}
+
+	/// Mean square difference over the square of the mean.
+	static double MeasureError(const FImage& Image, const FImage& Truth)
+	{
+		double Sum = 0.0, Squares = 0.0;
+		for (size_t I = 0; I < Truth.Pixels.size(); ++I)
+		{
+			const double Difference = double(Image.Pixels[I]) - double(Truth.Pixels[I]);
+			Squares += Difference * Difference;
+			Sum += double(Truth.Pixels[I]);
+		}
+		const double Count = double(Truth.Pixels.size()), Mean = Sum / Count;
+		return Squares / Count / (Mean * Mean);
+	}
+
+	/// The reference where all things end.
+	static FImage TraceLast()
+	{
+		FReferenceSettings Settings;
+		Settings.View = Look(1.0);
+		Settings.Time = Frames * FrameSeconds;
+		Settings.Samples = 256;
+		Settings.Signal = ESignal::Reflections;
+		Settings.bRasterSurfaces = true;
+		return TraceReference(Settings);
+	}
+};
+
+// Both find the same hits, and draw the same random numbers. Radiance cells and the filter would make much of the last bits of a distance.
+TEST_F(FReflectionPathsTest, PipelineAndQueryAgree)
+{
+	SetVariable("r.RT.GI", "0");
+	SetVariable("r.RT.Reflections.Denoise", "0");
+	FImage Pictures[2];
+	for (int Path = 1; Path <= 2; ++Path)
+	{
+		ASSERT_TRUE(LoadMirror(false));
+		SetVariable("r.RT.Reflections.Path", std::to_string(Path));
+		Pictures[Path - 1] = RenderLast(true);
+	}
+	EXPECT_GT(MeanGreen(Pictures[0]), 0.01);
+	// The payload of the pipeline's rays rounds normals and colours.
+	const double Differing = FractionDiffering(Pictures[0], Pictures[1], 0.01);
+	PrintFigure(fmt::format("pixels that differ by more than 0.01: {:.4f}", Differing));
+	EXPECT_LT(Differing, 0.02);
+}
+
+// A mirror whose camera, mover and own place all change shows what the reference shows at the end, but for noise that time has not smoothed.
+// Stripes of soft shadow move with a board, so that histories show where they were taken from. Nothing else that would drop them is on.
+TEST_F(FReflectionPathsTest, FlatMirrorFollowsAllMotion)
+{
+	for (const bool bMirrorMoves : {false, true})
+	{
+		ASSERT_TRUE(LoadMirror(bMirrorMoves));
+		for (const char* const Limit : {"ChangeSigma", "ClampSigma"})
+		{
+			SetVariable((std::string("r.RT.Reflections.") + Limit).c_str(), "0");
+		}
+		const FImage Truth = TraceLast();
+		const double Still = MeasureError(RenderLast(false), Truth), Moving = MeasureError(RenderLast(true), Truth);
+		SetVariable("r.RT.Debug.Reflections.Motion", "0");
+		const double Fault = MeasureError(RenderLast(true), Truth);
+		SetVariable("r.RT.Debug.Reflections.Motion", "1");
+		PrintFigure(fmt::format("mirror {}: relative square error still {:.5f}, moving {:.5f}, without the motion of hits {:.5f}",
+		    bMirrorMoves ? "moves" : "stands", Still, Moving, Fault));
+		EXPECT_LT(Moving, 6.0 * Still);
+		EXPECT_LT(Moving, 0.2 * Fault);
+	}
+}
+
+// Spheres of roughness 0 to 1, without the filter. Cells make them off by what they blur.
+TEST_F(FReflectionPathsTest, SpheresAsTheReference)
+{
+	REQUIRE_SCENE(Scene, "roughness/scene.gltf");
+	ASSERT_TRUE(Load(Scene));
+	SetSky({0.6f, 0.7f, 0.8f});
+	SetSun(0.533);
+	SetVariable("r.RT.Reflections.Samples", "16");
+	SetVariable("r.RT.Reflections.Denoise", "0");
+	ExpectUnbiased("spheres, reflections by cells", ESignal::Reflections, MakeView(96, 54), 2, 32, UnlimitedBounces, 0.02);
+}
+
+} // namespace
+} // namespace Lantern
