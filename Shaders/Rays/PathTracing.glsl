@@ -150,9 +150,9 @@ struct FKeptHit
 	vec3 Emission;  // by way of the mirrors; the path brings the rest
 };
 FKeptHit KeptHit;
-// Set by the thread before.
+// The thread sets these before.
 bool bLightsHits = false; // whether light is sampled there, and radiance cells hold that of further surfaces alone
-bool bKeepsEmission = false;
+bool bKeepsEmission = false; // the first lobe is a mirror, and what it shows keeps its emission apart
 
 const FKeptHit NothingKept = FKeptHit(-1.0, vec3(0.0, 0.0, 1.0), 0u, vec3(1.0), vec3(0.0));
 
@@ -255,7 +255,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		bMirrored = bMirrored && isinf(Sample.Pdf) && SpecularProbability(Brdf, LocalV) >= 1.0; // else the choice is chance
 		if (bMirrored) { KeepHit(Hit, Direction, Throughput, KeptHit.Distance); }
 #ifdef NO_CAUSTICS
-		bSeenInMirrors = bMirrored;
+		bSeenInMirrors = bMirrored && bKeepsEmission;
 #endif
 #endif
 	}

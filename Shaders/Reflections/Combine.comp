@@ -6,6 +6,7 @@
 #include "../Library/Rgbe.glsl"
 #include "../Library/SkyMap.glsl"
 #include "../Library/UintTextures.glsl"
+#include "Fade.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FReflectionCombineConstants Push; };
@@ -18,7 +19,7 @@ vec4 Combine(FViewConstants View, ivec2 Pixel, float Depth)
 	vec4 Material = texelFetch(Textures[Push.Pixels.Material], Pixel, 0);
 	FBrdf Lobe = MakeSpecularLobe(MakeGBufferBrdf(texelFetch(Textures[Push.Pixels.BaseColor], Pixel, 0), Material));
 	vec3 Albedo = SpecularReflectance(Lobe, dot(Point.BentN, Point.V), Material.x);
-	float Share = 1.0 - clamp((Material.x - Push.MaxRoughness) / max(Push.Fade, 1.0e-6), 0.0, 1.0);
+	float Share = ReflectedShare(Push.Fade, Material.x);
 	vec3 Radiance = vec3(0.0);
 	if (Share > 0.0)
 	{

@@ -6,6 +6,7 @@
 #include "../Library/RadianceCells.glsl"
 #include "../Library/UintTextures.glsl"
 #include "../Rays/ThreadList.glsl"
+#include "Fade.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FReflectionListConstants Push; };
@@ -19,7 +20,7 @@ bool IsTraced(FViewConstants View, ivec2 Pixel)
 	float Depth = LoadDepth(Push.Pixels.Depth, Pixel);
 	if (!(Depth > 0.0)) { return false; }
 	vec4 Material = texelFetch(Textures[Push.Pixels.Material], Pixel, 0);
-	if (Material.x > Push.MaxRoughness) { return false; }
+	if (ReflectedShare(Push.Fade, Material.x) <= 0.0) { return false; }
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Pixels.Normals, Pixel, Depth);
 	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.Pixels.BaseColor], Pixel, 0), Material);
 	return MaxComponent(SpecularReflectance(Brdf, dot(Point.BentN, Point.V), Material.x)) >= LeastReflectance;

@@ -22,17 +22,24 @@ struct FReflectionPixels
 };
 LANTERN_ASSERT_SIZE(FReflectionPixels, 16);
 
+// Where reflections fade out.
+struct FReflectionFade
+{
+	float End;   // roughness from which on none are traced, if Slope is not 0
+	float Slope; // 1 / roughness over which they fade out before; 0: all count in full
+};
+LANTERN_ASSERT_SIZE(FReflectionFade, 8);
+
 // Constants of Reflections/List.comp.
 struct FReflectionListConstants
 {
 	FPassConstants Pass;
 	FReflectionPixels Pixels;
 	uint Radiance, Surface, Anchors; // storage indices, cleared where nothing is traced; the last two may be NO_TEXTURE
-	float MaxRoughness;              // of what is traced, the fade included
+	uint FirstVoter;                 // place in FRadianceGrid::Votes from which on those of this pass lie
+	FReflectionFade Fade;
 	FAddress List;                   // FThreadList
 	FAddress RadianceCells;          // FRadianceGrid; 0: there are none
-	uint FirstVoter;                 // place in FRadianceGrid::Votes from which on those of this pass lie
-	uint Pad;
 };
 LANTERN_ASSERT_SIZE(FReflectionListConstants, 72);
 
@@ -77,8 +84,7 @@ struct FReflectionCombineConstants
 	uint Radiance;      // sampled index: filtered
 	uint Mirrored;      // sampled index: as above
 	uint Output;        // storage index: the signal
-	float MaxRoughness; // up to which reflections count in full
-	float Fade;         // roughness over which they fade out from there
+	FReflectionFade Fade;
 	uint Pad;
 };
 LANTERN_ASSERT_SIZE(FReflectionCombineConstants, 56);

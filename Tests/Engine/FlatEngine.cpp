@@ -54,7 +54,8 @@ void FFlatEngineTest::SetUp()
 	Desc.CacheFolder = LANTERN_TEST_CACHE;
 	ASSERT_OK(Module->Initialize(Desc));
 	for (const char* const Name : {"r.RT.GI", "r.RT.Reflections"}) { SetVariable(Name, "1"); }
-	SetVariable("r.RT.GI.Denoise", "0"); // pixels are compared with the truth, frame by frame
+	// Pixels are compared with the truth, frame by frame.
+	for (const char* const Name : {"r.RT.GI.Denoise", "r.RT.Reflections.Denoise"}) { SetVariable(Name, "0"); }
 	SetVariable("r.RT.Pipeline.Fallback", "2");
 	SetVariable("r.RT.Build.TrianglesPerFrame", "100000000");
 	SetVariable("r.RT.Shadow.Soft", "0");

@@ -26,6 +26,8 @@ TRTConsoleVariable<float> CVarLitRoughness("r.RT.Reflections.LitRoughness", 0.25
 TRTConsoleVariable<bool> CVarMotion(
     "r.RT.Debug.Reflections.Motion", true, "Planted fault. If off, what a mirror shows counts as standing still, however it moves.");
 const FDenoiseVariables Denoise("r.RT.Reflections", FDenoiseDefaults{.bColor = true});
+/// Roughness over which reflections fade out: neither materials nor textures show where they end.
+constexpr float Fade = 0.1f;
 constexpr uint32_t BouncesWithoutCell = 3; // of a path that would end in a cell and meets none
 
 FShaderSource MakeSource(const char* Name) { return MakeComputeSource(std::string("Reflections/") + Name + ".comp"); }
@@ -57,6 +59,8 @@ struct FPaths
 	FSurfaceTextures Shown;    ///< what reflections show; Current is invalid: nobody asks
 	FGraphTexture LastAnchors; ///< of the frame before; invalid: there are none
 };
+
+FReflectionFade GetFade(float MaxRoughness) { return {MaxRoughness, MaxRoughness < 1.0f ? 1.0f / Fade : 0.0f}; }
 
 FReflectionPixels GetPixels(FPassContext& Pass, const FGBuffer& GBuffer)
 {
@@ -107,14 +111,14 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 		}
 		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
-		return [=, MaxRoughness = GetTracedRoughness(Paths.Settings.MaxRoughness)](FPassContext& Pass) {
+		return [=, MaxRoughness = Paths.Settings.MaxRoughness](FPassContext& Pass) {
 			FReflectionListConstants C{};
 			C.Pass = Frame->Pass;
 			C.Pixels = GetPixels(Pass, GBuffer);
 			C.Radiance = GetStorageIndex(Pass, Paths.Radiance);
 			C.Surface = GetStorageIndex(Pass, Paths.Shown.Current);
 			C.Anchors = GetStorageIndex(Pass, Paths.Shown.Anchors);
-			C.MaxRoughness = MaxRoughness;
+			C.Fade = GetFade(MaxRoughness);
 			C.List = GetAddress(Pass, Paths.Threads);
 			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
 			C.FirstVoter = Paths.FirstVoter;
@@ -204,8 +208,7 @@ FGraphTexture AddCombinePass(FFrameContext& Context, const FGBuffer& GBuffer, co
 			C.Radiance = GetSampledIndex(Pass, Radiance);
 			C.Mirrored = GetSampledIndex(Pass, Paths.Mirrored);
 			C.Output = GetStorageIndex(Pass, Output);
-			C.MaxRoughness = MaxRoughness;
-			C.Fade = ReflectionFade;
+			C.Fade = GetFade(MaxRoughness);
 			Dispatch2D(Pass, Paths.Combine, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});

@@ -11,13 +11,8 @@ struct FReflectionPathSettings
 {
 	ERayPath Path = ERayPath::None;
 	uint32_t Samples = 1, Bounces = 1; ///< Bounces: of paths that end in no cell
-	float MaxRoughness = 1.0f;         ///< up to which reflections count in full
+	float MaxRoughness = 1.0f;         ///< rougher surfaces are not traced
 };
-
-/// Roughness over which reflections fade out: neither materials nor textures show where they end.
-constexpr float ReflectionFade = 0.1f;
-/// Returns the roughness up to which reflections are traced.
-inline float GetTracedRoughness(float MaxRoughness) { return MaxRoughness < 1.0f ? MaxRoughness + ReflectionFade : 1.0f; }
 
 FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const FPassQuery& Query);
 bool AreReflectionPathsFiltered();

@@ -22,7 +22,7 @@ TRTConsoleVariable<int32_t> CVarBounces("r.RT.Reflections.Bounces", 1,
     {1, 4});
 TRTConsoleVariable<float> CVarMaxRoughness("r.RT.Reflections.MaxRoughness", 1.0f,
     "Surfaces that are rougher have no reflections traced: paths of global illumination stand in, or the sky's ambient light. With "
-    "r.RT.Reflections 1, reflections fade out over another 0.1. 1: all are traced.",
+    "r.RT.Reflections 1, reflections fade out over the last 0.1 before. 1: all are traced.",
     {0.0, 1.0});
 TRTConsoleVariable<int32_t> CVarPath("r.RT.Reflections.Path", 0,
     "How reflections of r.RT.Reflections 1 trace. 0: by the pipeline where there is one. 1: ray-tracing pipeline. 2: ray queries, which "
@@ -45,21 +45,19 @@ FReflectionPathSettings GetPathSettings(const FPassQuery& Query)
 	Settings.MaxRoughness = CVarMaxRoughness.GetOnRenderThread();
 	return Settings;
 }
-
-float GetRoughness()
-{
-	return IsPathRoute() ? GetTracedRoughness(CVarMaxRoughness.GetOnRenderThread()) : CVarMaxRoughness.GetOnRenderThread();
-}
 } // namespace
 
 float GetReflectedRoughness(const FPassQuery& Query)
 {
 	if (!IsMade(ESignal::Reflections, Query.Requests)) { return -1.0f; }
 	const ERayPath Path = IsPathRoute() ? GetPathSettings(Query).Path : ChooseBruteForcePath(BruteForce, Query);
-	return Path != ERayPath::None ? GetRoughness() : -1.0f;
+	return Path != ERayPath::None ? CVarMaxRoughness.GetOnRenderThread() : -1.0f;
 }
 
-float GetReflectedRoughnessInReference() { return IsRayTracingEnabled() && CVarRoute.GetOnRenderThread() != 0 ? GetRoughness() : -1.0f; }
+float GetReflectedRoughnessInReference()
+{
+	return IsRayTracingEnabled() && CVarRoute.GetOnRenderThread() != 0 ? CVarMaxRoughness.GetOnRenderThread() : -1.0f;
+}
 
 FPassRays ChooseReflectionsRays(const FPassQuery& Query)
 {
