@@ -225,9 +225,14 @@ vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P,
 #ifdef HAS_SUN
 	if (SunSharesChannel(Scene, Channels)) { L += SampleSun(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.xy); }
 #endif
+#ifdef HAS_SKY
+#ifdef RADIANCE_CELLS
 	// The path goes on as a ray to the sky would. Two cost more than they save where few paths are followed.
-#if defined(HAS_SKY) && !defined(RADIANCE_CELLS)
-	L += SampleSky(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.zw);
+	bool bSamplesSky = bCharacter;
+#else
+	const bool bSamplesSky = true;
+#endif
+	if (bSamplesSky) { L += SampleSky(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.zw); }
 #endif
 #ifdef HAS_LIGHTS
 	vec2 PointU = vec2(0.0);

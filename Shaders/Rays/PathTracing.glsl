@@ -93,7 +93,7 @@ vec3 ShadeMiss(FSceneConstants Scene, vec3 Direction, float Pdf, float NdotL, ui
 	vec3 L = vec3(0.0);
 #ifdef HAS_SKY
 #ifdef RADIANCE_CELLS
-	L += SampleSkyRadiance(Scene, Direction); // see SampleLights
+	if (Pdf > 0.0) { L += SampleSkyRadiance(Scene, Direction); } // see SampleLights
 #else
 	L += SampleSkyRadiance(Scene, Direction) * PowerHeuristic(Pdf, NdotL / Pi);
 #endif
@@ -160,14 +160,16 @@ const FKeptHit NothingKept = FKeptHit(-1.0, vec3(0.0, 0.0, 1.0), 0u, vec3(1.0), 
 void KeepHit(inout FMaterialHit Hit, vec3 Direction, vec3 Throughput, float Before)
 {
 	const float LeastAlbedo = 0.01;
+	vec3 Emission = Before > 0.0 ? KeptHit.Emission : vec3(0.0); // of mirrors before
 	KeptHit = NothingKept;
+	KeptHit.Emission = Emission;
 	if (Hit.Distance < 0.0) { return; }
 	FBrdf Brdf = MakeBrdf(Hit);
 	float NdotV = dot(BendNormal(Hit.Normal, -Direction), -Direction);
 	vec3 Albedo = DiffuseReflectance(Brdf, NdotV) + SpecularReflectance(Brdf, NdotV, Hit.Roughness);
-	KeptHit = FKeptHit(Before + Hit.Distance, Hit.GeometricNormal, Hit.Object, Throughput * max(Albedo, LeastAlbedo), vec3(0.0));
+	KeptHit = FKeptHit(Before + Hit.Distance, Hit.GeometricNormal, Hit.Object, Throughput * max(Albedo, LeastAlbedo), Emission);
 	if (!bKeepsEmission) { return; }
-	KeptHit.Emission = Throughput * Hit.Emissive;
+	KeptHit.Emission += Throughput * Hit.Emissive;
 	Hit.Emissive = vec3(0.0);
 }
 #endif

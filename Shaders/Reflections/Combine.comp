@@ -18,7 +18,7 @@ vec4 Combine(FViewConstants View, ivec2 Pixel, float Depth)
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Pixels.Normals, Pixel, Depth);
 	vec4 Material = texelFetch(Textures[Push.Pixels.Material], Pixel, 0);
 	FBrdf Lobe = MakeSpecularLobe(MakeGBufferBrdf(texelFetch(Textures[Push.Pixels.BaseColor], Pixel, 0), Material));
-	vec3 Albedo = SpecularReflectance(Lobe, dot(Point.BentN, Point.V), Material.x);
+	vec3 Albedo = LobeAlbedo(Lobe, dot(Point.BentN, Point.V), Material.x);
 	float Share = ReflectedShare(Push.Fade, Material.x);
 	vec3 Radiance = vec3(0.0);
 	if (Share > 0.0)
@@ -33,7 +33,7 @@ vec4 Combine(FViewConstants View, ivec2 Pixel, float Depth)
 #ifdef HAS_SKY
 	else { Radiance = SampleSkyRadiance(FSceneRef(Push.Pass.Scene).Data, reflect(-Point.V, Point.BentN)); }
 #endif
-	return vec4(min(Albedo * Radiance, vec3(MaxHalf)), Share);
+	return vec4(clamp(Albedo * Radiance, vec3(0.0), vec3(MaxHalf)), Share);
 }
 
 void main()

@@ -50,6 +50,7 @@ void main()
 		return;
 	}
 	imageStore(Images[Push.Radiance], Pixel, vec4(0.0));
+	imageStore(UintImages[Push.Mirrored], Pixel, uvec4(0u));
 	if (Push.Surface == NO_TEXTURE) { return; }
 	imageStore(Images[Push.Surface], Pixel, vec4(0.0));
 	imageStore(UintImages[Push.Anchors], Pixel, uvec4(0u));

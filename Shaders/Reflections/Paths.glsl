@@ -6,11 +6,14 @@
 #define LANTERN_REFLECTION_PATHS_GLSL
 
 #define KEEPS_HIT
+float EmissionRoughness; // the thread sets it before
+#define REFLECTED_ROUGHNESS EmissionRoughness
 #include "../Shared/ReflectionTypes.h"
 #include "../Library/Rgbe.glsl"
 #include "../Library/UintTextures.glsl"
 #include "../Rays/IndirectSampling.glsl"
 #include "../Rays/ThreadList.glsl"
+#include "Fade.glsl"
 
 layout(push_constant, scalar) uniform FPush { FReflectionPathConstants Push; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FReflectionHitRef { FReflectionHit Data[]; };
@@ -41,21 +44,26 @@ void ReflectPixel(uint Number)
 	KeptHit = NothingKept;
 	bLightsHits = Material.x < Push.LitRoughness;
 	bKeepsEmission = bMirror;
+	EmissionRoughness = Push.EmissionRoughness;
 #ifdef RADIANCE_CELLS
 	BeginLookUps(View, uvec2(Pixel));
 #endif
 	vec3 Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, Lobe, Push.SamplesPerPixel, Push.MaxBounces, 0x9e3779b9u);
 	float NdotV = dot(Point.BentN, Point.V);
-	vec3 Albedo = max(SpecularReflectance(Lobe, NdotV, Material.x), vec3(1.0e-4));
+	vec3 Albedo = LobeAlbedo(Lobe, NdotV, Material.x);
+	Radiance /= Albedo;
 	if (bMirror)
 	{
 		// The filter gets what the mirrored surface receives, as it does elsewhere. Its texture is shown as it is.
-		vec3 Emission = KeptHit.Emission * SpecularFresnel(Lobe, NdotV) / Albedo;
-		imageStore(UintImages[Push.Mirrored], Pixel, uvec4(PackRgbe(KeptHit.Albedo, vec3(0.5)), PackRgbe(Emission, vec3(0.5)), 0u, 0u));
-		Albedo *= UnpackRgbe(PackRgbe(KeptHit.Albedo, vec3(0.5)));
+		vec3 Least = vec3(MaxComponent(KeptHit.Albedo) / 128.0); // smaller ones would be packed as 0
+		uint Packed = PackRgbe(max(KeptHit.Albedo, Least), vec3(0.5));
+		vec3 Mirrored = UnpackRgbe(Packed), Emission = KeptHit.Emission * SpecularFresnel(Lobe, NdotV) / Albedo;
+		Radiance /= Mirrored;
+		Emission += max(Radiance - MaxHalf, vec3(0.0)) * Mirrored; // what the filter could not hold
+		imageStore(UintImages[Push.Mirrored], Pixel, uvec4(Packed, PackRgbe(min(Emission, vec3(1.0e9)), vec3(0.5)), 0u, 0u));
 	}
 	bool bNoise = !bMirror || KeptHit.Distance >= 0.0; // a mirror shows the sky as it is
-	imageStore(Images[Push.Radiance], Pixel, RoundToHalf(vec4(ClampToFinite(Radiance / Albedo), bNoise ? 1.0 : 0.0)));
+	imageStore(Images[Push.Radiance], Pixel, RoundToHalf(vec4(ClampToFinite(Radiance), bNoise ? 1.0 : 0.0)));
 	FReflectionHitRef(Push.Hits).Data[Number] = FReflectionHit(KeptHit.Distance, PackOct(KeptHit.Normal), KeptHit.Object);
 }
 

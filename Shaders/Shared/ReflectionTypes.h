@@ -35,13 +35,14 @@ struct FReflectionListConstants
 {
 	FPassConstants Pass;
 	FReflectionPixels Pixels;
-	uint Radiance, Surface, Anchors; // storage indices, cleared where nothing is traced; the last two may be NO_TEXTURE
+	uint Radiance, Mirrored, Surface, Anchors; // storage indices, cleared where nothing is traced; the last two may be NO_TEXTURE
 	uint FirstVoter;                 // place in FRadianceGrid::Votes from which on those of this pass lie
+	uint Pad;
 	FReflectionFade Fade;
 	FAddress List;                   // FThreadList
 	FAddress RadianceCells;          // FRadianceGrid; 0: there are none
 };
-LANTERN_ASSERT_SIZE(FReflectionListConstants, 72);
+LANTERN_ASSERT_SIZE(FReflectionListConstants, 80);
 
 // Constants of Reflections/Paths.rgen and .comp.
 struct FReflectionPathConstants
@@ -53,12 +54,14 @@ struct FReflectionPathConstants
 	uint SamplesPerPixel;
 	uint MaxBounces;          // scattering events, that at the pixel included
 	float LitRoughness;       // smoother surfaces show hits by light sampling, rougher ones by radiance cells
+	float EmissionRoughness;  // rougher surfaces leave emission to light sampling
 	uint FirstVoter;          // as above
+	uint Pad;
 	FAddress List;            // FThreadList
 	FAddress Hits;            // FReflectionHit[], by place in the list
 	FAddress RadianceCells;   // as above
 };
-LANTERN_ASSERT_SIZE(FReflectionPathConstants, 80);
+LANTERN_ASSERT_SIZE(FReflectionPathConstants, 88);
 
 // Constants of Reflections/Surface.comp.
 struct FReflectionSurfaceConstants

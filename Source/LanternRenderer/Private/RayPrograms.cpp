@@ -60,7 +60,7 @@ FRayType MakeMaterialRay(const FSceneFacts& Facts)
 struct FCollector
 {
 	FRayPrograms& Programs;
-	bool bShadesHits = false, bBlockers = false, bFilters = false;
+	bool bShadesHits = false, bBlockers = false, bFilters = false, bFollowsHits = false;
 	ERayPath RadianceCells = ERayPath::None; ///< of the pass that ends in them
 
 	void Add(ESignal Signal, FPassRays Rays, const std::string& RayGenPath)
@@ -106,7 +106,9 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		if (Rays.bRadianceCells) { Collector.RadianceCells = Rays.Path; }
 		const bool bMade = IsMade(Pass.Signal, Requests);
 		const bool bMask = Pass.Signal == GetLightMaskRow() && IsLightMaskAccumulated(Facts);
-		Collector.Programs.bMotion |= bMask || (bMade && Pass.WantsMotion && Pass.WantsMotion(Scene));
+		const bool bFollows = bMade && Pass.WantsMotion && Pass.WantsMotion(Scene);
+		Collector.Programs.bMotion |= bMask || bFollows;
+		Collector.bFollowsHits |= bFollows && Pass.bFollowsHits;
 		Collector.bFilters |= bMask;
 		Collector.Programs.bMotion |= Pass.AskShadowRays && Facts.bCharacters; // it names the pixels' objects
 		std::vector<FShaderSource>& Compute = Collector.Programs.Compute;
@@ -174,7 +176,7 @@ FRayPrograms ChooseRayPrograms(
 		CollectPass(Collector, EPassRayGen::Fog, FogShaders, ChooseFogRays(Query), Facts);
 		CollectPass(
 		    Collector, EPassRayGen::RadianceCells, RadianceCellShaders, ChooseRadianceCellRays(Query, Collector.RadianceCells), Facts);
-		Programs.bMotion &= Features.bMotion;
+		Programs.bMotion = (Programs.bMotion && Features.bMotion) || Collector.bFollowsHits;
 	}
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }
 	if (Features.bCameraMotion && Collector.bFilters) { Programs.Compute.push_back(MakeCameraMotionSource()); }

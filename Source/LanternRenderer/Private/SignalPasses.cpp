@@ -47,6 +47,7 @@ constexpr FSignalPass Passes[] = {
         .ChooseRays = ChooseReflectionsRays,
         .Add = AddReflectionsPass,
         .WantsMotion = AreReflectionsFiltered,
+        .bFollowsHits = true,
         .ListFilters = ListReflectionFilters,
         .EmissionIn = ESignal::LocalSpecular},
     {.Signal = ESignal::LocalDiffuse,

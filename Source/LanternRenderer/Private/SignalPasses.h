@@ -16,6 +16,8 @@ struct FSignalPass
 	FGraphTexture (*Add)(FFrameContext& Context, const FGBuffer& GBuffer);
 	/// Whether the pass, if it runs, follows how objects moved (FSceneConstants::ObjectMotions). Null: it does not.
 	bool (*WantsMotion)(const FRTScene& Scene) = nullptr;
+	/// With WantsMotion: it follows what rays met, which no motion vectors of a host tell.
+	bool bFollowsHits = false;
 	/// Lists the compute shaders of the filter behind the pass, if it runs. Null: it has none.
 	void (*ListFilters)(const FRTScene& Scene, const FPassQuery& Query, std::vector<FShaderSource>& Out) = nullptr;
 	/// A signal that serves in its place once its rays are ready. Count: there is none.

@@ -1,4 +1,5 @@
 // Signals of the module: what an engine asks for is made, and nothing else is.
+#include <algorithm>
 #include <limits>
 
 #include "ModuleTestTools.h"
@@ -278,6 +279,23 @@ TEST_F(FModuleSignalTest, IndirectLightIsGivenWhereItIsAskedForAndOn)
 	EXPECT_EQ(Outputs.Get(ESignal::Reflections), nullptr) << "an input is missing";
 	EXPECT_NE(Outputs.Get(ESignal::DiffuseGI), nullptr);
 	EXPECT_THAT(GetPasses(), Not(Contains("Reflections")));
+}
+
+// Reflections ask for radiance cells: their votes must be there before the cells are brought up to date, in whatever order signals are added.
+TEST_F(FModuleSignalTest, ReflectionsVoteForCellsBeforeTheseAreKept)
+{
+	const float Sky[3] = {1, 1, 1};
+	ASSERT_OK(Renderer->SetSky(Sky));
+	SetVariable("r.RT.GI", "3");
+	SetVariable("r.RT.Reflections", "1");
+	RenderUntilComplete(DescribeAll());
+	ASSERT_TRUE(Outputs.Get(ESignal::DiffuseGI) && Outputs.Get(ESignal::Reflections));
+	const std::vector<std::string> Passes = GetPasses();
+	const auto Find = [&](const char* Name) { return std::find(Passes.begin(), Passes.end(), Name); };
+	const auto Traced = Find("Reflections"), Kept = Find("RadianceCellsVotes");
+	ASSERT_TRUE(Traced != Passes.end() && Kept != Passes.end());
+	EXPECT_LT(Traced, Kept);
+	EXPECT_EQ(std::count(Passes.begin(), Passes.end(), "Reflections"), 1);
 }
 
 TEST_F(FModuleSignalTest, WithoutMotionThatOfTheCameraStandsIn)

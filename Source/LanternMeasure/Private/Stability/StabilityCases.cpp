@@ -64,7 +64,7 @@ FStabilityFault MakeUncoveringFault(const FMethod&)
 {
 	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Validate", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"},
 	                     {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"},
-	                     {"r.RT.GI.HistorySeconds", "60"}, {"r.RT.Debug.GI.Events", "0"}}),
+	                     {"r.RT.GI.HistorySeconds", "60"}, {"r.RT.Debug.GI.Events", "0"}, {"r.RT.Reflections.HistorySeconds", "60"}}),
 	    "");
 }
 
@@ -90,9 +90,17 @@ FStabilityFault MakeBlindLampsFault(const FMethod&)
 /// History that is kept for a minute and never compared with what is there now.
 FStabilityFault MakeStaleFault(const FMethod&)
 {
-	return MakeFault(
-	    KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"},
-	        {"r.RT.Lights.HistorySeconds", "60"}, {"r.RT.GI.HistorySeconds", "60"}, {"r.RT.Debug.GI.Events", "0"}}),
+	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"},
+	                     {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"}, {"r.RT.GI.HistorySeconds", "60"},
+	                     {"r.RT.Debug.GI.Events", "0"}, {"r.RT.Reflections.HistorySeconds", "60"}}),
+	    "");
+}
+
+/// The same, where mirrors are taken for what they show.
+FStabilityFault MakeStaleMirrorFault(const FMethod&)
+{
+	return MakeFault(KnownSettings({{"r.RT.Debug.Reflections.Motion", "0"}, {"r.RT.Debug.Denoise.Validate", "0"},
+	                     {"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Reflections.HistorySeconds", "60"}}),
 	    "");
 }
 
@@ -109,7 +117,8 @@ FStabilityFault MakeUnguardedFault(const FMethod& Method)
 		return false;
 	};
 	// The composite has a guard of its own: in a whole frame nothing would be seen.
-	const bool bFiltered = Method.Signal != Whole && (IsOn("r.RT.Shadow.Denoise") || IsOn("r.RT.AO.Denoise"));
+	const bool bFiltered =
+	    Method.Signal != Whole && (IsOn("r.RT.Shadow.Denoise") || IsOn("r.RT.AO.Denoise") || IsOn("r.RT.Reflections.Denoise"));
 	const std::vector<FMethodSetting> Unguarded = KnownSettings({{"r.RT.Debug.Denoise.Guard", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"}});
 	return MakeFault(bFiltered ? Unguarded : std::vector<FMethodSetting>(), "one pixel is overwritten");
 }
@@ -149,7 +158,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {9, "disocclusion", EverySignal(false, ELamps::Yes), MeasureDisocclusion, MakeUncoveringFault},
 	    {10, "ghost", EverySignal(false, ELamps::Yes), MeasureGhost, MakeStaleFault},
 	    {11, "shadow lag", {Sun, LampDiffuse}, MeasureShadowLag, nullptr, "the fan is where it was three frames ago"},
-	    {12, "mover in a mirror", {}},
+	    {12, "mover in a mirror", {Reflected}, MeasureMirrorGhost, MakeStaleMirrorFault},
 	    {13, "thin specular", {LampSpecular}, MeasureThinSpecular, MakeBlindLampsFault},
 	    {14, "not a number", EverySignal(true), MeasureNotANumber, MakeUnguardedFault},
 	    {15, "huge mesh", {}},

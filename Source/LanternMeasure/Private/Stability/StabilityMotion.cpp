@@ -79,6 +79,7 @@ namespace
 /// Sums of a projection: how much of what was there is still in the picture.
 struct FTrail
 {
+	std::vector<uint8_t> Where; ///< by pixel; empty: everywhere
 	double Kept = 0.0, All = 0.0;
 
 	/// Where Old and Now differ by a fifth of their swing, and Later and Now by much less: what was uncovered between the two. Rest:
@@ -89,9 +90,11 @@ struct FTrail
 			return std::abs(double(Was.Mean.Pixels[I]) - double(Now.Mean.Pixels[I]));
 		};
 		double Swing = 0.0;
-		for (size_t I = 0; I < F.Pixels.size(); ++I) { Swing = std::max(Swing, Differ(Old, I)); }
+		const auto IsLeftOut = [&](size_t I) { return !Where.empty() && !Where[I / F.Channels]; };
+		for (size_t I = 0; I < F.Pixels.size(); ++I) { Swing = std::max(Swing, IsLeftOut(I) ? 0.0 : Differ(Old, I)); }
 		for (size_t I = 0; I < F.Pixels.size(); ++I)
 		{
+			if (IsLeftOut(I)) { continue; }
 			if (Differ(Old, I) < 0.2 * Swing || Differ(Later, I) > 0.4 * Differ(Old, I) || !std::isfinite(F.Pixels[I])) { continue; }
 			Kept += (double(F.Pixels[I]) - double(Rest.Pixels[I])) * (double(Old.Mean.Pixels[I]) - double(Now.Mean.Pixels[I]));
 			All += (double(Old.A.Pixels[I]) - double(Now.A.Pixels[I])) * (double(Old.B.Pixels[I]) - double(Now.B.Pixels[I]));
@@ -134,14 +137,25 @@ FRTStatus PlayStill(FStabilityStage& Stage, const FView& View, double Time, FIma
 }
 } // namespace
 
-/// What the cube, its shadow or its light left in pixels that it uncovered 4 to 8 frames ago, and 16 to 20; each as a part
-/// of what was there, against what the method makes of the same moment at rest. Four moments of its way are summed up, in
-/// the mean of eight runs.
-FRTStatus MeasureGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
+namespace
 {
-	if (FRTStatus S = Stage.LoadLit("stability-ghost"); !S) { return S; }
+/// Where and when MeasureTrail looks.
+struct FTrailRegion
+{
+	std::string Name;               ///< begins the names of its figures
+	std::vector<uint8_t> Where;     ///< by pixel; empty: everywhere
+	double Start;                   ///< seconds of animation; the four moments are 0.8 to 1 s later
+	double YoungLimit;              ///< after 4 frames
+	std::optional<double> OldLimit; ///< after 16 frames; nullopt: not measured
+};
+
+/// What a mover, its shadow or its light left in pixels that it uncovered 4 to 8 frames ago, and 16 to 20; each as a part
+/// of what was there, against what the method makes of the same moment at rest. Four moments of its way are summed up, in
+/// the mean of eight runs. The scene is loaded.
+FRTStatus MeasureTrail(FStabilityStage& Stage, const FTrailRegion& Region, std::vector<FStabilityFigure>& Out)
+{
 	constexpr int First = 28, Count = 61, Steps = 9, Step = 4; // references at frames First, First + 4, …
-	const auto TimeOf = [](int Frame) { return 0.2 + Frame * FrameSeconds; };
+	const auto TimeOf = [&](int Frame) { return Region.Start + Frame * FrameSeconds; };
 	const FView View = Stage.MakeView();
 	std::vector<FStabilityShot> Shots(Count);
 	for (int I = 0; I < Count; ++I)
@@ -162,7 +176,7 @@ FRTStatus MeasureGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Ou
 	{
 		if (FRTStatus S = Stage.GetReference(View, TimeOf(First + Step * I), References[I]); !S) { return S; }
 	}
-	FTrail Young, Old;
+	FTrail Young{Region.Where}, Old{Region.Where};
 	for (int I = 5; I < Steps; ++I)
 	{
 		const FImage& F = Frames[First + Step * I];
@@ -176,9 +190,34 @@ FRTStatus MeasureGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Ou
 		Stage.AddToStrip(F, References[I].Mean);
 	}
 	const auto Limit = [&](double Value) { return bKeeps ? std::optional<double>(Value) : std::nullopt; };
-	Out.push_back({"after 4 frames", std::abs(Young.Kept / Young.All), Limit(0.02)});
-	Out.push_back({"after 16 frames", std::abs(Old.Kept / Old.All), Limit(0.005)});
+	Out.push_back({Region.Name + "after 4 frames", std::abs(Young.Kept / Young.All), Limit(Region.YoungLimit)});
+	if (Region.OldLimit) { Out.push_back({Region.Name + "after 16 frames", std::abs(Old.Kept / Old.All), Limit(*Region.OldLimit)}); }
 	return FRTStatus::Success();
+}
+} // namespace
+
+/// A cube that crosses a striped wall.
+FRTStatus MeasureGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
+{
+	if (FRTStatus S = Stage.LoadLit("stability-ghost"); !S) { return S; }
+	return MeasureTrail(Stage, {"", {}, 0.2, 0.02, 0.005}, Out);
+}
+
+/// A cube that flies past a flat mirror and a round one. At time 0 it hides neither from the camera.
+FRTStatus MeasureMirrorGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
+{
+	if (FRTStatus S = Stage.Load("stability-mirror"); !S) { return S; }
+	const FSceneDescription& Scene = Stage.GetScene().GetDescription();
+	const auto Seen = TracePicture(FCpuScene(Scene, 0.0), Stage.MakeView());
+	const auto FindWhere = [&](const char* Node) {
+		std::vector<uint8_t> Where;
+		for (const auto& Hit : Seen) { Where.push_back(Hit && Scene.Nodes[static_cast<size_t>(Hit->Node)].Name == Node); }
+		return Where;
+	};
+	const double InFlat = -0.47, InRound = 0.2; // when the moments are those in which it is seen there
+	FRTStatus Status = MeasureTrail(Stage, {"flat, ", FindWhere("mirror"), InFlat, 0.05, std::nullopt}, Out);
+	if (Status) { Status = MeasureTrail(Stage, {"round, ", FindWhere("convex mirror"), InRound, 0.05, std::nullopt}, Out); }
+	return Status;
 }
 
 namespace

@@ -103,7 +103,7 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 		Paths.Height = Paths.Probes.GetLaunchHeight();
 	}
 	const ERayPath Path = First.Compute ? ERayPath::Query : ERayPath::Pipeline;
-	Paths.RadianceCells = Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, Path, CountRadianceVoters(Context)) : nullptr;
+	Paths.RadianceCells = Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, Path) : nullptr;
 	if (First.Has(SharedPathsDefine))
 	{
 		Paths.Shared = MakeSharedPaths(Context, Rate, First.Has(SecondLobe), uint64_t(Paths.Width) * Paths.Height);
@@ -215,11 +215,6 @@ void AddDeferredPasses(const FBruteForcePass& Settings, FFrameContext& Context, 
 	if (!AddRadianceCellPasses(Context, GBuffer, Path, Beside)) { AddPathsPass(Settings, Context, GBuffer, Paths, true); }
 }
 } // namespace
-
-uint32_t CountRadianceVoters(const FFrameContext& Context)
-{
-	return std::max(CountBlockVoters(Context), CountScreenProbeVoters(Context)); // while shaders are compiled, others may serve
-}
 
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query)
 {

@@ -39,8 +39,6 @@ ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery&
 FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery& Query);
 /// Returns the second launch of a pass with bRadianceCells, which follows the paths that the first has left.
 FPassRays MakeDeferredRays(const FPassRays& Rays);
-/// Returns the voters of such a pass among those of RequireRadianceCells: the first ones.
-uint32_t CountRadianceVoters(const FFrameContext& Context);
 /// What AddBruteForcePass has made. Invalid: nothing is traced, or shaders are being compiled.
 struct FBruteForceOutputs
 {

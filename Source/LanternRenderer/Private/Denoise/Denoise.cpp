@@ -259,6 +259,12 @@ void ListDenoiseShaders(const FDenoiseForm& Form, const FDenoiseSettings& Settin
 	ListSurfaceShaders(Out);
 }
 
+bool AreDenoiseShadersReady(const FFrameContext& Context, const FDenoiseForm& Form, const FDenoiseSettings& Settings)
+{
+	const bool bTemporal = RequireCompute(Context, MakeTemporalSource(Form)) != nullptr; // both are asked for at once
+	return (Settings.Passes == 0 || RequireCompute(Context, MakeFilterSource(Form))) && bTemporal;
+}
+
 FGraphTexture AddDenoise(FFrameContext& Context, const FGBuffer& GBuffer, const FDenoiseInputs& Inputs, const FDenoiseSettings& Settings)
 {
 	return AddDenoise(Context, GBuffer, {&Inputs}, Settings)[0];

@@ -71,6 +71,9 @@ struct FDenoiseForm
 /// Lists the compute shaders of the filter.
 void ListDenoiseShaders(const FDenoiseForm& Form, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out);
 
+/// Whether they are there, for passes in front of the filter that keep something for the next frame's.
+bool AreDenoiseShadersReady(const FFrameContext& Context, const FDenoiseForm& Form, const FDenoiseSettings& Settings);
+
 /// Returns the filtered signal, of Signal's description. Pixels without a surface keep their value. Passes are named
 /// "<Name>Temporal" and "<Name>Filter<I>". Signals share the passes "Surface" and, if the host gives no motion,
 /// "CameraMotion". Returns Signal while shaders are being compiled, and on an error, which the context then has. Histories then

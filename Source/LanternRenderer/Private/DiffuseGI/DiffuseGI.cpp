@@ -126,6 +126,7 @@ FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBrute
 const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	if (Context.IndirectLobes) { return *Context.IndirectLobes; }
+	(void)AddReflectionsPass(Context, GBuffer); // they ask for cells as well, before these are brought up to date
 	// The filter tells surfaces apart by the normals that they have, in the frame before as well.
 	FLobes Lobes = FilterLobes(Context, GBuffer, AddBruteForcePass(BruteForce, Context, RequireToonSurface(Context, GBuffer)));
 	const bool bHorizon = !IsProbeRoute(); // probes make up for what lies below a surface

@@ -10,6 +10,7 @@
 #include "LanternCore/Text/Log.h"
 #include "Lights/LightCells.h"
 #include "RadianceCells/RadianceEvents.h"
+#include "ScreenProbes/ScreenProbes.h"
 #include "Tiles/MovedCasters.h"
 
 namespace Lantern
@@ -118,14 +119,14 @@ void SetPace(FRadianceGrid& Grid, bool bHurry, float DeltaSeconds)
 	Grid.LeastWait = bHurry ? 1u : std::max(static_cast<uint32_t>(Grid.Window / MostUpdatesInWindow), 1u);
 }
 
-std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context, uint32_t Voters)
+std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 {
 	const auto Cells = std::make_shared<FRadianceCells>();
 	Cells->Slots = GetSlots();
 	const FRadianceEvents::FFound Events =
 	    Context.RadianceEvents->Find(Context.Scene, MakeGatherView(Context.View).Position, Context.View.DeltaSeconds);
 	Cells->Grid = MakeGrid(Context, Cells->Slots, Events);
-	Cells->Grid.VoteCount = Voters;
+	Cells->Grid.VoteCount = CountPathVoters(Context) + CountBlockVoters(Context);
 	Cells->EventFrames = Events.Window;
 	FHistoryBuffer History;
 	FRTStatus Status = Context.History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);
@@ -263,13 +264,15 @@ void AddRadianceCellDefines(FShaderDefines& InOut)
 	if (!CVarDirection.GetOnRenderThread()) { InOut.emplace_back("NO_CELL_DIRECTION", "1"); }
 }
 
-const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path, uint32_t Voters)
+uint32_t CountPathVoters(const FFrameContext& Context) { return std::max(CountBlockVoters(Context), CountScreenProbeVoters(Context)); }
+
+const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path)
 {
 	if (!Context.bRadianceCellsAsked)
 	{
 		Context.bRadianceCellsAsked = true;
 		const bool bReady = AreReady(Context) && FindUpdateDispatch(Context, Path);
-		if (bReady) { Context.RadianceCells = MakeCells(Context, Voters); }
+		if (bReady) { Context.RadianceCells = MakeCells(Context); }
 	}
 	return Context.RadianceCells.get();
 }

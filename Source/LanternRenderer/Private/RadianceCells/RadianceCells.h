@@ -30,12 +30,15 @@ FPassRays ChooseRadianceCellRays(const FPassQuery& Query, ERayPath Path);
 void AddRadianceCellDefines(FShaderDefines& InOut);
 constexpr const char* RadianceCellShaders = "RadianceCells/Update";
 
+/// Returns the voters of the pass that keeps the cells. Some may write no vote while others' shaders are compiled: a vote of an earlier frame
+/// is no cell's any more.
+uint32_t CountPathVoters(const FFrameContext& Context);
 /// Returns how many voters there are where each 2×2 pixels share one (VoterOfPixel in Shaders/Library/RadianceCells.glsl).
 inline uint32_t CountBlockVoters(const FFrameContext& Context) { return DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2); }
 /// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells. Path: as in
-/// ChooseRadianceCellRays. Voters: look-ups of all passes that may vote, each with a place of its own in FRadianceGrid::Votes, which it
-/// writes in any case. The first call of a frame says how many there are.
-const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path, uint32_t Voters);
+/// ChooseRadianceCellRays. Look-ups that may vote have places of their own in FRadianceGrid::Votes, which they write in any case. First come
+/// CountPathVoters of the pass that keeps the cells, then CountBlockVoters of one other pass, which is added before AddRadianceCellPasses.
+const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path);
 /// Declares that a pass looks cells up and asks for those that it misses. Cells may be null.
 void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells);
 /// Returns FRadianceGrid's address, while a pass with ReadRadianceCells is recorded. 0: Cells is null.

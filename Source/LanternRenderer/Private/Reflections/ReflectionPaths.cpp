@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "BruteForce/BruteForce.h"
 #include "Denoise/Denoise.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
@@ -26,9 +25,11 @@ TRTConsoleVariable<float> CVarLitRoughness("r.RT.Reflections.LitRoughness", 0.25
 TRTConsoleVariable<bool> CVarMotion(
     "r.RT.Debug.Reflections.Motion", true, "Planted fault. If off, what a mirror shows counts as standing still, however it moves.");
 const FDenoiseVariables Denoise("r.RT.Reflections", FDenoiseDefaults{.bColor = true});
-/// Roughness over which reflections fade out: neither materials nor textures show where they end.
-constexpr float Fade = 0.1f;
+constexpr float Fade = 0.1f;               // roughness over which reflections fade out
+constexpr float MirrorRoughness = 0.032f;  // IsMirror in Brdf.glsl
 constexpr uint32_t BouncesWithoutCell = 3; // of a path that would end in a cell and meets none
+
+constexpr FDenoiseForm FilterForm{.bColor = true, .bSparse = true};
 
 FShaderSource MakeSource(const char* Name) { return MakeComputeSource(std::string("Reflections/") + Name + ".comp"); }
 
@@ -60,7 +61,12 @@ struct FPaths
 	FGraphTexture LastAnchors; ///< of the frame before; invalid: there are none
 };
 
-FReflectionFade GetFade(float MaxRoughness) { return {MaxRoughness, MaxRoughness < 1.0f ? 1.0f / Fade : 0.0f}; }
+FReflectionFade GetFade(float MaxRoughness)
+{
+	if (MaxRoughness >= 1.0f) { return {1.0f, 0.0f}; }
+	const float Start = GetFullRoughness(MaxRoughness), End = std::max(MaxRoughness, Start + 1.0e-3f);
+	return {End, 1.0f / (End - Start)};
+}
 
 FReflectionPixels GetPixels(FPassContext& Pass, const FGBuffer& GBuffer)
 {
@@ -104,8 +110,7 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 		DeclarePixels(Builder, GBuffer);
 		AppendToThreadList(Builder, Paths.Threads);
 		ReadRadianceCells(Builder, Paths.Cells);
-		Builder.Write(Paths.Radiance, ERTAccess::StorageWrite);
-		for (const FGraphTexture Texture : {Paths.Shown.Current, Paths.Shown.Anchors})
+		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Mirrored, Paths.Shown.Current, Paths.Shown.Anchors})
 		{
 			if (Texture.IsValid()) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		}
@@ -116,6 +121,7 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 			C.Pass = Frame->Pass;
 			C.Pixels = GetPixels(Pass, GBuffer);
 			C.Radiance = GetStorageIndex(Pass, Paths.Radiance);
+			C.Mirrored = GetStorageIndex(Pass, Paths.Mirrored);
 			C.Surface = GetStorageIndex(Pass, Paths.Shown.Current);
 			C.Anchors = GetStorageIndex(Pass, Paths.Shown.Anchors);
 			C.Fade = GetFade(MaxRoughness);
@@ -140,7 +146,7 @@ void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths&
 		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Mirrored}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		Builder.Write(Paths.Hits, ERTAccess::StorageWrite);
 		Builder.AllowAsync();
-		return [=, Samples = Paths.Settings.Samples](FPassContext& Pass) {
+		return [=, Samples = Paths.Settings.Samples, FullRoughness = GetFullRoughness(Paths.Settings.MaxRoughness)](FPassContext& Pass) {
 			FReflectionPathConstants C{};
 			C.Pass = Frame->Pass;
 			C.Pixels = GetPixels(Pass, GBuffer);
@@ -149,6 +155,7 @@ void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths&
 			C.SamplesPerPixel = Samples;
 			C.MaxBounces = Bounces + 1;
 			C.LitRoughness = CVarLitRoughness.GetOnRenderThread();
+			C.EmissionRoughness = FullRoughness;
 			C.List = GetAddress(Pass, Paths.Threads);
 			C.Hits = GetAddress(Pass, Paths.Hits);
 			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
@@ -199,7 +206,6 @@ FGraphTexture AddCombinePass(FFrameContext& Context, const FGBuffer& GBuffer, co
 		DeclarePixels(Builder, GBuffer);
 		for (const FGraphTexture Texture : {Radiance, Paths.Mirrored}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		Builder.Write(Output, ERTAccess::StorageWrite);
-		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
 		return [=, MaxRoughness = Paths.Settings.MaxRoughness](FPassContext& Pass) {
 			FReflectionCombineConstants C{};
@@ -215,6 +221,8 @@ FGraphTexture AddCombinePass(FFrameContext& Context, const FGBuffer& GBuffer, co
 	return Output;
 }
 } // namespace
+
+float GetFullRoughness(float MaxRoughness) { return MaxRoughness < 1.0f ? std::max(MaxRoughness - Fade, MirrorRoughness) : 1.0f; }
 
 FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const FPassQuery& Query)
 {
@@ -240,7 +248,7 @@ void ListReflectionPathFilters(std::vector<FShaderSource>& Out)
 {
 	if (!Denoise.IsEnabled()) { return; }
 	Out.push_back(MakeSurfaceSource());
-	ListDenoiseShaders({.bColor = true, .bSparse = true}, Denoise.Get(), Out);
+	ListDenoiseShaders(FilterForm, Denoise.Get(), Out);
 }
 
 FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrameContext& Context, const FGBuffer& GBuffer)
@@ -253,14 +261,15 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 	Paths.List = RequireCompute(Context, MakeSource("List")); // all are asked for at once
 	Paths.Combine = RequireCompute(Context, MakeCombineSource(Context.Facts));
 	Paths.Surface = bFiltered ? RequireCompute(Context, MakeSurfaceSource()) : nullptr;
+	if (bFiltered && !AreDenoiseShadersReady(Context, FilterForm, Denoise.Get())) { return {}; }
 	if (!Dispatch || !Paths.List || !Paths.Combine || (bFiltered && !Paths.Surface)) { return {}; }
 	Paths.Dispatch = *Dispatch;
 	if (bFiltered && !RequireShown(Context, Paths)) { return {}; }
 	const ERayPath Cached = ChooseRadianceCellPath(Query);
 	if (Cached != ERayPath::None && Dispatch->Has("RADIANCE_CELLS"))
 	{
-		Paths.FirstVoter = CountRadianceVoters(Context);
-		Paths.Cells = RequireRadianceCells(Context, Cached, Paths.FirstVoter + CountBlockVoters(Context));
+		Paths.FirstVoter = CountPathVoters(Context);
+		Paths.Cells = RequireRadianceCells(Context, Cached);
 	}
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
 	Paths.Radiance = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, "ReflectedRadiance");

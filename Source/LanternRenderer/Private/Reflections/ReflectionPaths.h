@@ -14,6 +14,9 @@ struct FReflectionPathSettings
 	float MaxRoughness = 1.0f;         ///< rougher surfaces are not traced
 };
 
+/// Returns the roughness up to which reflections count in full. From there on they fade out: neither materials nor textures show where they
+/// end. Mirrors always count.
+float GetFullRoughness(float MaxRoughness);
 FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const FPassQuery& Query);
 bool AreReflectionPathsFiltered();
 void ListReflectionPathFilters(std::vector<FShaderSource>& Out);

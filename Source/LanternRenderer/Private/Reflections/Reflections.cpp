@@ -45,18 +45,24 @@ FReflectionPathSettings GetPathSettings(const FPassQuery& Query)
 	Settings.MaxRoughness = CVarMaxRoughness.GetOnRenderThread();
 	return Settings;
 }
+
+float GetEmissionRoughness()
+{
+	const float MaxRoughness = CVarMaxRoughness.GetOnRenderThread();
+	return IsPathRoute() ? GetFullRoughness(MaxRoughness) : MaxRoughness;
+}
 } // namespace
 
 float GetReflectedRoughness(const FPassQuery& Query)
 {
 	if (!IsMade(ESignal::Reflections, Query.Requests)) { return -1.0f; }
 	const ERayPath Path = IsPathRoute() ? GetPathSettings(Query).Path : ChooseBruteForcePath(BruteForce, Query);
-	return Path != ERayPath::None ? CVarMaxRoughness.GetOnRenderThread() : -1.0f;
+	return Path != ERayPath::None ? GetEmissionRoughness() : -1.0f;
 }
 
 float GetReflectedRoughnessInReference()
 {
-	return IsRayTracingEnabled() && CVarRoute.GetOnRenderThread() != 0 ? CVarMaxRoughness.GetOnRenderThread() : -1.0f;
+	return IsRayTracingEnabled() && CVarRoute.GetOnRenderThread() != 0 ? GetEmissionRoughness() : -1.0f;
 }
 
 FPassRays ChooseReflectionsRays(const FPassQuery& Query)
@@ -73,10 +79,17 @@ void ListReflectionFilters(const FRTScene&, const FPassQuery&, std::vector<FShad
 
 FGraphTexture AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	if (!IsPathRoute()) { return AddBruteForcePass(BruteForce, Context, GBuffer).Lobe; }
-	const FReflectionPathSettings Settings = GetPathSettings({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
-	const bool bMade = Settings.Path != ERayPath::None && IsMade(ESignal::Reflections, Context.Signals);
-	return bMade ? AddReflectionPaths(Settings, Context, GBuffer) : FGraphTexture();
+	if (Context.ReflectedLight) { return *Context.ReflectedLight; }
+	FGraphTexture Light;
+	if (!IsPathRoute()) { Light = AddBruteForcePass(BruteForce, Context, GBuffer).Lobe; }
+	else
+	{
+		const FReflectionPathSettings Settings = GetPathSettings({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
+		const bool bMade = Settings.Path != ERayPath::None && IsMade(ESignal::Reflections, Context.Signals);
+		if (bMade) { Light = AddReflectionPaths(Settings, Context, GBuffer); }
+	}
+	Context.ReflectedLight = Light;
+	return Light;
 }
 
 } // namespace Lantern

@@ -7,12 +7,13 @@ namespace Lantern
 {
 
 FPassRays ChooseReflectionsRays(const FPassQuery& Query);
-/// Returns the roughness up to which surfaces have reflections traced. Negative: none have.
+/// Returns the roughness up to which reflections hold their share of emission. Negative: none do.
 float GetReflectedRoughness(const FPassQuery& Query);
 /// The same for references, which know no requests.
 float GetReflectedRoughnessInReference();
 bool AreReflectionsFiltered(const FRTScene&);
 void ListReflectionFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out);
+/// Later calls of a frame return what the first one did.
 FGraphTexture AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer);
 
 } // namespace Lantern

@@ -93,7 +93,7 @@ struct FFrameFeatures
 	/// The host's G-buffer goes through AddHostSurfacePass, which has something to convert (NeedsHostSurfacePass).
 	bool bHostSurface = false;
 	/// The host makes its motion vectors from FSceneConstants::ObjectMotions. These are recorded if a filter follows motion, or if
-	/// FSignalRequests::bMotion asks. An engine with motion vectors of its own saves 72 bytes a frame for each moving object.
+	/// FSignalRequests::bMotion asks. What rays meet is followed all the same. An engine with motion vectors of its own saves 72 bytes a frame for each moving object.
 	bool bMotion = true;
 	FSignalRequests Signals;
 	/// The view of the frame before as this frame's world has it. Empty: as it was given then.
@@ -302,6 +302,7 @@ struct FFrameContext
 	bool bShadowRaysAsked = false;
 	std::optional<FLobes> LocalLobes;    ///< of local lights, not filtered; nullopt: not shaded so far
 	std::optional<FLobes> IndirectLobes; ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
+	std::optional<FGraphTexture> ReflectedLight; ///< the signal; nullopt: nobody has asked so far
 	std::optional<FLightMask> LightMask; ///< nullopt: nobody has asked so far
 	FLampChangesOfFrame LampChanges;
 	FMoversOfFrame Movers;

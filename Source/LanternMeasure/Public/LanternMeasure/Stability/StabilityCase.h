@@ -61,6 +61,7 @@ FRTStatus MeasureTinyEmitters(FStabilityStage& Stage, std::vector<FStabilityFigu
 FRTStatus MeasureBoiling(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureDisocclusion(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureMirrorGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureShadowLag(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureNotANumber(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureThinSpecular(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
