@@ -1,4 +1,4 @@
-// Sampling shared by the brute-force passes of indirect light: diffuse GI and reflections.
+// Sampling shared by the passes of indirect light: diffuse GI and reflections.
 #ifndef LANTERN_INDIRECT_SAMPLING_GLSL
 #define LANTERN_INDIRECT_SAMPLING_GLSL
 

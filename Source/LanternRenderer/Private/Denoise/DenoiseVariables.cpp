@@ -27,7 +27,7 @@ struct FDenoiseVariables::FVariables
 	FVariables(const std::string& Prefix, const FDenoiseDefaults& Defaults)
 	    : Denoise(Prefix + ".Denoise", true,
 	          "Accumulates the signal over frames and smooths it along surfaces. If off, it is as noisy as its rays."),
-	      HistorySeconds(Prefix + ".HistorySeconds", Common.HistorySeconds,
+	      HistorySeconds(Prefix + ".HistorySeconds", Defaults.HistorySeconds,
 	          "Time constant of what " + Prefix + ".Denoise accumulates, in seconds. 0: nothing is accumulated.", {0.0, 60.0}),
 	      ChangeSigma(Prefix + ".ChangeSigma", Common.ChangeSigma,
 	          "Accumulation starts anew where the signal has changed by more than this many standard errors. 0: never.", {0.0, 100.0}),

@@ -33,6 +33,7 @@ struct FDenoiseDefaults
 	bool bExtent = false; ///< the signal comes with extents: <Prefix>.FilterReach exists
 	bool bColor = false;  ///< the signal is a colour: <Prefix>.ClampSigma exists
 	float ClampSigma = FDenoiseSettings().ClampSigma;
+	float HistorySeconds = FDenoiseSettings().HistorySeconds;
 };
 
 /// Static storage; the variables register themselves. Reads are for the render thread.

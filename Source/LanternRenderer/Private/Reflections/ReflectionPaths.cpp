@@ -24,7 +24,7 @@ TRTConsoleVariable<float> CVarLitRoughness("r.RT.Reflections.LitRoughness", 0.25
     {0.0, 1.0});
 TRTConsoleVariable<bool> CVarMotion(
     "r.RT.Debug.Reflections.Motion", true, "Planted fault. If off, what a mirror shows counts as standing still, however it moves.");
-const FDenoiseVariables Denoise("r.RT.Reflections", FDenoiseDefaults{.bColor = true});
+const FDenoiseVariables Denoise("r.RT.Reflections", FDenoiseDefaults{.bColor = true, .HistorySeconds = 0.25f});
 constexpr float Fade = 0.1f;               // roughness over which reflections fade out
 constexpr float MirrorRoughness = 0.032f;  // IsMirror in Brdf.glsl
 constexpr uint32_t BouncesWithoutCell = 3; // of a path that would end in a cell and meets none

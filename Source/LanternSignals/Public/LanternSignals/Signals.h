@@ -35,12 +35,13 @@ enum class ESignal : uint8_t
 	/// A path's first ray then sees no emission of triangles that light sampling lists. Deforming meshes are listed, too.
 	DiffuseGI,
 	/// Radiance that the surface's specular lobe reflects towards the camera, Fresnel included, of the light that DiffuseGI
-	/// has. A mirror (roughness² < 0.001) is a delta. Alpha is 1, or 0 where the surface is rougher than
-	/// r.RT.Reflections.MaxRoughness. There rgb is the reflection of an unoccluded sky. Sky pixels: 0.
+	/// has. A mirror (roughness² < 0.001) is a delta. Alpha is the share of it, 0 to 1, that a host shows; the rest is that of
+	/// RoughSpecular. It is 1 for smooth surfaces, and 0 from r.RT.Reflections.MaxRoughness on. There rgb is the reflection of an
+	/// unoccluded sky. Sky pixels: 0.
 	///
 	/// LocalSpecular shares directly reflected emissive triangles with it, as LocalDiffuse does with DiffuseGI. Here they count
-	/// w = 1 - smoothstep(0.2, 0.3, roughness), there 1 - w, so that narrow lobes find them by their own ray. Where no reflection is
-	/// traced, w is 0.
+	/// w = 1 - smoothstep(0.2, 0.3, roughness), there 1 - w, so that narrow lobes find them by their own ray. Where alpha is below 1,
+	/// w is 0.
 	Reflections,
 	/// Shadowed light of local lights, which are all but the sun and the sky. Emissive triangles are among them if r.RT.Lights.Emissive is
 	/// on: see DiffuseGI. It is what the diffuse lobe reflects towards the camera, over the lobe's directional albedo: irradiance / π.
@@ -50,8 +51,8 @@ enum class ESignal : uint8_t
 	/// triangles count as Reflections says. Sky pixels: 0.
 	LocalSpecular,
 	/// What the specular lobe reflects of the light that DiffuseGI has, over its directional albedo. Diffuse GI's paths find it. Lobes
-	/// narrower than that of roughness 0.5 are taken for as wide. It stands in where no reflection is traced, and is not made if reflections
-	/// of all surfaces are. LocalSpecular has all light of emissive triangles there. Sky pixels: 0.
+	/// narrower than that of roughness 0.2 are taken for as wide. It stands in where Reflections has an alpha below 1, and is not made if
+	/// reflections of all surfaces are. LocalSpecular has all light of emissive triangles there. Sky pixels: 0.
 	RoughSpecular,
 	Count,
 };
