@@ -300,10 +300,10 @@ struct FFrameContext
 	FGraphTexture DebugPicture;
 	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
 	bool bShadowRaysAsked = false;
-	std::optional<FLobes> LocalLobes;    ///< of local lights, not filtered; nullopt: not shaded so far
-	std::optional<FLobes> IndirectLobes; ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
+	std::optional<FLobes> LocalLobes;            ///< of local lights, not filtered; nullopt: not shaded so far
+	std::optional<FLobes> IndirectLobes;         ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
 	std::optional<FGraphTexture> ReflectedLight; ///< the signal; nullopt: nobody has asked so far
-	std::optional<FLightMask> LightMask; ///< nullopt: nobody has asked so far
+	std::optional<FLightMask> LightMask;         ///< nullopt: nobody has asked so far
 	FLampChangesOfFrame LampChanges;
 	FMoversOfFrame Movers;
 	std::shared_ptr<const FRadianceCells> RadianceCells; ///< null: none, or nobody has asked so far
