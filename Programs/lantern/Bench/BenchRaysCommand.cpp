@@ -68,7 +68,10 @@ int MeasureScene(
 		return Status;
 	}
 	// The hand-written dispatch takes hits as the driver gives them, and its table has no record but those of shadow rays.
-	FConsoleVariables::Get().Set("r.RT.GI", "0", ERTSetBy::CommandLine, "bench rays");
+	for (const char* const Name : {"r.RT.GI", "r.RT.Reflections"})
+	{
+		FConsoleVariables::Get().Set(Name, "0", ERTSetBy::CommandLine, "bench rays");
+	}
 	FConsoleVariables::Get().Set("r.RT.Opacity.Pieces", "0", ERTSetBy::CommandLine, "bench rays");
 	if (const int Status = Session.LoadScene(Picture); Status != ExitDone) { return Status; }
 	const FPluginFolders Folders = FindPluginFolders();

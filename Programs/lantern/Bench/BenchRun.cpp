@@ -40,22 +40,25 @@ int RunBench(const std::string& File, const std::function<int(nlohmann::json& Fi
 
 namespace
 {
-/// Benchmarks are of parts. Global illumination, which the project's defaults turn on, would be beside each; --quality and --set may.
-void LeaveOutGlobalIllumination() { FConsoleVariables::Get().Set("r.RT.GI", "0", ERTSetBy::Ini, "bench"); }
+/// Benchmarks are of parts. Indirect light, which the project's defaults turn on, would be beside each; --quality and --set may.
+void LeaveOutIndirectLight()
+{
+	for (const char* const Name : {"r.RT.GI", "r.RT.Reflections"}) { FConsoleVariables::Get().Set(Name, "0", ERTSetBy::Ini, "bench"); }
+}
 } // namespace
 
 int RunInBenchSession(const FDeviceOptions& Options, const std::function<int(FSession&)>& Body)
 {
 	FSession Session;
 	const int Opened = Session.OpenDevice(Options);
-	LeaveOutGlobalIllumination();
+	LeaveOutIndirectLight();
 	return Session.Close(Opened == ExitDone ? Body(Session) : Opened);
 }
 
 int RunOnBenchMock(const FDeviceOptions& Options, const std::function<int(IRTDevice&)>& Body)
 {
 	if (const int Status = LoadSettings(FindPluginFolders().Config, Options); Status != ExitDone) { return Status; }
-	LeaveOutGlobalIllumination();
+	LeaveOutIndirectLight();
 	TRTRef<IRTDevice> Device;
 	if (FRTStatus S = CreateBenchMock(Device); !S) { return ReportStatus(S, "--mock"); }
 	return Body(*Device);
