@@ -24,16 +24,16 @@ const float StandsStill = 0.5;       // pixels by which a surface may be off tha
 // What a reflecting pixel shows, relative to the cameras of both frames.
 struct FMirror
 {
-	vec3 Now, Before;             // position
-	vec3 Normal, NormalBefore;    // shading normal
-	bool bKnown;                  // where it was
+	vec3 Now, Before;  // position
+	vec3 NormalBefore; // shading normal
+	bool bKnown;       // where it was
 };
 
 // Motion: a texel of FGBuffer::Motion.
 FMirror FindMirror(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point, vec4 Motion)
 {
 	uint Object = Push.bNamesObjects != 0u && Motion.w >= 1.0 ? uint(Motion.w) - 1u : NoObject;
-	FMirror Mirror = FMirror(Point.Relative, Point.Relative + View.CameraMotion, Point.BentN, Point.BentN, true);
+	FMirror Mirror = FMirror(Point.Relative, Point.Relative + View.CameraMotion, Point.BentN, true);
 	if (Push.Motion == NO_TEXTURE) { return Mirror; }
 	Mirror.Before = MoveBack(Scene, View, Object, Point.Relative);
 	Mirror.NormalBefore = TurnBack(Scene, View, Object, Point.BentN);

@@ -48,7 +48,7 @@ FShaderSource MakeCombineSource(const FSceneFacts& Facts)
 /// The paths of one frame.
 struct FPaths
 {
-	const FReflectionPathSettings& Settings;
+	FReflectionPathSettings Settings;
 	FRayDispatch Dispatch;
 	IRTPipeline *List = nullptr, *Surface = nullptr, *Combine = nullptr;
 	const FRadianceCells* Cells = nullptr; ///< null: there are none
