@@ -15,8 +15,10 @@ struct FMovedShareConstants
 	uint Output;         // storage index; x: share of the light, y: radiance
 	uint LampCount;      // at most RADIANCE_CELL_MOST_EVENTS
 	FAddress Lamps;      // FRadianceEvent[LampCount]
+	uint Material;       // sampled index: the light of specular lobes is asked for. NO_TEXTURE: that from all around
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FMovedShareConstants, 56);
+LANTERN_ASSERT_SIZE(FMovedShareConstants, 64);
 
 LANTERN_SHARED_END
 

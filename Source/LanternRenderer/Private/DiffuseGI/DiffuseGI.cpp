@@ -5,7 +5,7 @@
 
 #include "BruteForce/BruteForce.h"
 #include "Denoise/Denoise.h"
-#include "DiffuseGI/MovedShare.h"
+#include "RadianceCells/MovedShare.h"
 #include "RadianceCells/RadianceCells.h"
 #include "RadianceCells/RadianceCellsView.h"
 #include "Reflections/Reflections.h"
@@ -113,7 +113,7 @@ FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBrute
 	FLobes Lobes{Made.Lobe, Made.Second};
 	if (!Denoise.IsEnabled() || (!Lobes.Diffuse.IsValid() && !Lobes.Specular.IsValid())) { return Lobes; }
 	const FDenoiseSettings Settings = GetFilter(Context);
-	const FGraphTexture Moved = AddMovedShare(Context, GBuffer);
+	const FGraphTexture Moved = AddMovedShare(Context, GBuffer, ELightFrom::Around);
 	const FDenoiseInputs Diffuse = MakeInputs(ESignal::DiffuseGI, Lobes.Diffuse, Moved, Made.bKnownNoise);
 	const FDenoiseInputs Specular = MakeInputs(ESignal::RoughSpecular, Lobes.Specular, Moved, Made.bKnownNoise);
 	const bool bDiffuse = Lobes.Diffuse.IsValid() && IsMade(ESignal::DiffuseGI, Context.Signals);

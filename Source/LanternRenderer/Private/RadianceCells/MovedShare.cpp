@@ -1,5 +1,5 @@
 // The pass that finds where objects that move and lamps that change have changed the light.
-#include "DiffuseGI/MovedShare.h"
+#include "RadianceCells/MovedShare.h"
 
 #include "MovedShareTypes.h"
 #include "RadianceCells/RadianceCells.h"
@@ -12,7 +12,7 @@ namespace Lantern
 
 namespace
 {
-FShaderSource MakeSource() { return MakeComputeSource("DiffuseGI/MovedShare.comp", {}); }
+FShaderSource MakeSource() { return MakeComputeSource("RadianceCells/MovedShare.comp", {}); }
 } // namespace
 
 void ListMovedShareShaders(std::vector<FShaderSource>& Out)
@@ -20,7 +20,7 @@ void ListMovedShareShaders(std::vector<FShaderSource>& Out)
 	if (AreIndirectChangesTold()) { Out.push_back(MakeSource()); }
 }
 
-FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer)
+FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer, ELightFrom From)
 {
 	if (!AreIndirectChangesTold()) { return {}; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource()); // before it is needed: then it would be too late
@@ -34,14 +34,20 @@ FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer)
 	C.CasterCount = Movers.Count;
 	C.LampCount = LampCount;
 	C.Lamps = LampCount > 0 ? Cells->Grid.Events : 0;
-	const FGraphTexture Share = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG16_FLOAT}, "MovedShare");
-	Context.Graph.AddPass("MovedShare", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+	const char* const Name = From == ELightFrom::Around ? "MovedShare" : "MovedShareOfLobes";
+	const FGraphTexture Material = From == ELightFrom::SpecularLobe ? GBuffer.Material : FGraphTexture{};
+	const FGraphTexture Share = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG16_FLOAT}, Name);
+	Context.Graph.AddPass(Name, [&](FPassBuilder& Builder) -> FPassExecute {
+		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, Material})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
 		Builder.Write(Share, ERTAccess::StorageWrite);
 		Builder.AllowAsync();
 		return [=, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
+			C.Material = GetSampledIndex(Pass, Material);
 			C.Output = GetStorageIndex(Pass, Share);
 			Dispatch2D(Pass, Pipeline, C, Width, Height, TILE_SIZE);
 		};

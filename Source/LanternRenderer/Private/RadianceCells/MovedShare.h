@@ -1,4 +1,4 @@
-// Tells the filter of global illumination where objects that move have changed the light (Shaders/DiffuseGI/MovedShare.comp).
+// Tells the filters of indirect light where objects that move have changed it (Shaders/RadianceCells/MovedShare.comp).
 #pragma once
 
 #include "LanternRenderer/Frame.h"
@@ -8,8 +8,15 @@ namespace Lantern
 {
 
 void ListMovedShareShaders(std::vector<FShaderSource>& Out);
+/// What the light comes from: all around, or within the specular lobe of each pixel's surface.
+enum class ELightFrom : uint8_t
+{
+	Around,
+	SpecularLobe
+};
+
 /// Returns FDenoiseInputs::ChangedShare. Invalid: nothing has moved, so much has that no place is more touched than others, shaders are
 /// being compiled, or an error, which the context has.
-FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer);
+FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer, ELightFrom From);
 
 } // namespace Lantern

@@ -7,6 +7,7 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
 #include "LocalLights/Emitters.h"
+#include "RadianceCells/MovedShare.h"
 #include "RadianceCells/RadianceCells.h"
 #include "Rays/ThreadList.h"
 #include "ReflectionTypes.h"
@@ -248,6 +249,7 @@ void ListReflectionPathFilters(std::vector<FShaderSource>& Out)
 {
 	if (!Denoise.IsEnabled()) { return; }
 	Out.push_back(MakeSurfaceSource());
+	ListMovedShareShaders(Out);
 	ListDenoiseShaders(FilterForm, Denoise.Get(), Out);
 }
 
@@ -286,6 +288,7 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 		Inputs.Name = GetSignalInfo(ESignal::Reflections).Pass;
 		Inputs.Signal = Radiance;
 		Inputs.Surface = Paths.Shown;
+		Inputs.ChangedShare = AddMovedShare(Context, GBuffer, ELightFrom::SpecularLobe);
 		Radiance = AddDenoise(Context, GBuffer, Inputs, Denoise);
 	}
 	return AddCombinePass(Context, GBuffer, Paths, Radiance);
