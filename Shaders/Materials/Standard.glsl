@@ -19,6 +19,7 @@ struct FMaterialSurface
 	float Occlusion; // 1: unoccluded
 	float F0;        // reflectance of the dielectric at normal incidence
 	float Specular;  // weight of the dielectric layer
+	float Transmission; // share of what the layer lets in that shines through. Counts only where FMaterialData::Transmission is not 0
 };
 
 #ifdef MATERIAL_IMPLICIT_LOD
@@ -113,6 +114,12 @@ vec3 EvaluateNormal(FMaterialData Material, FMaterialInputs Inputs)
 	return NormalizeOr(T * Map.x + cross(N, T) * (Inputs.Tangent.w * Map.y) + N * Map.z, N);
 }
 
+float EvaluateTransmission(FMaterialData Material, FMaterialInputs Inputs)
+{
+	bool bTextured = Material.Transmission > 0.0 && HasTexture(Material, TEXTURE_TRANSMISSION);
+	return bTextured ? Material.Transmission * MaterialTexture(Material, Inputs, TEXTURE_TRANSMISSION).r : Material.Transmission;
+}
+
 // Override: value of r.RT.Material.Override; 0: none.
 FMaterialSurface EvaluateStandard(FMaterialData Material, FMaterialInputs Inputs, uint Override)
 {
@@ -129,6 +136,7 @@ FMaterialSurface EvaluateStandard(FMaterialData Material, FMaterialInputs Inputs
 		Surface.Roughness = 1.0;
 		Surface.F0 = 0.0;
 		Surface.Specular = 0.0;
+		Surface.Transmission = 0.0;
 		Surface.Normal = NormalizeOr(Inputs.Normal, vec3(0.0, 0.0, 1.0));
 		return Surface;
 	}
@@ -147,6 +155,7 @@ FMaterialSurface EvaluateStandard(FMaterialData Material, FMaterialInputs Inputs
 	float Ratio = (Material.Ior - 1.0) / (Material.Ior + 1.0);
 	Surface.F0 = Ratio * Ratio;
 	Surface.Specular = Material.Specular;
+	Surface.Transmission = EvaluateTransmission(Material, Inputs);
 	Surface.Normal = EvaluateNormal(Material, Inputs);
 	return Surface;
 }

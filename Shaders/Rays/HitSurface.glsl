@@ -28,6 +28,10 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	vec3 Ng = normalize((Place.ObjectNormal * Place.WorldToObject).xyz);
 	bool bFront = dot(Ng, Place.Direction) < 0.0;
 	bool bCulledSide = !bFront && (Section.Flags & SECTION_DOUBLE_SIDED) == 0u;
+#ifdef HAS_TRANSMISSION
+	bool bSolid = Material.Transmission > 0.0 && (Material.Flags & MATERIAL_SOLID) != 0u;
+	bCulledSide = bCulledSide && !bSolid; // a camera in a solid sees its surface
+#endif
 	if (!bFront)
 	{
 		Ng = -Ng;
@@ -49,6 +53,11 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	Hit.Flags = (bCulledSide ? HIT_CULLED_SIDE : 0u) | ((ObjectFlags & OBJECT_CHARACTER) != 0u ? HIT_CHARACTER : 0u);
 	Hit.Channels = LoadObjectChannels(Scene, Place.Object);
 	Hit.Object = Place.Object;
+#ifdef HAS_TRANSMISSION
+	Hit.Transmission = Material.Transmission > 0.0 ? Surface.Transmission : 0.0;
+	Hit.Absorption = bSolid ? Material.Absorption : vec3(0.0);
+	Hit.Flags |= bSolid ? (bFront ? HIT_SOLID : HIT_SOLID | HIT_INSIDE) : 0u;
+#endif
 	const uint Foliage = SECTION_MASKED | SECTION_DOUBLE_SIDED;
 	if ((Section.Flags & Foliage) == Foliage) { Hit.Flags |= HIT_FOLIAGE; }
 	return Hit;

@@ -6,6 +6,8 @@
 //   W2 geometric normal, octahedral  W6 emission rg fp16
 //   W3 base colour rg unorm16        W7 emission b fp16 | light-sampling weight fp16
 //                                    W8 object
+// HAS_TRANSMISSION: the upper 8 bits of W8, which no object needs, are inside 1 | solid 1. Two words are added.
+//   W9 absorption rg fp16            W10 absorption b fp16 | transmission unorm16
 // The four fp16 are never negative: their signs are the upper channels.
 #ifndef LANTERN_MATERIAL_PAYLOAD_GLSL
 #define LANTERN_MATERIAL_PAYLOAD_GLSL
@@ -16,6 +18,9 @@ struct FMaterialPayload
 {
 	float Distance; // metres; < 0: nothing was hit
 	uint W1, W2, W3, W4, W5, W6, W7, W8;
+#ifdef HAS_TRANSMISSION
+	uint W9, W10;
+#endif
 };
 
 // Emission is scaled by this before it is stored as fp16, so that lamps of millions of nits fit. Emission below 0.004 nits
@@ -29,6 +34,8 @@ const float MaxEmission = 65504.0 / EmissionScale; // nits
 #define HIT_CULLED_SIDE 1u // the back of a single-sided surface: camera rays do not see it
 #define HIT_CHARACTER 2u   // characters do not shadow the surface
 #define HIT_FOLIAGE 4u     // alpha-tested and seen from both sides
+#define HIT_INSIDE 8u      // the ray arrives from within a solid
+#define HIT_SOLID 16u      // the surface of a volume that light shines through
 
 struct FMaterialHit
 {
@@ -42,6 +49,10 @@ struct FMaterialHit
 	uint Flags;           // HIT_…
 	uint Channels;        // 8 bits, of the object: see LightProfile.glsl
 	uint Object;          // into FObjectData[]
+#ifdef HAS_TRANSMISSION
+	float Transmission;   // FMaterialSurface::Transmission
+	vec3 Absorption;      // of HIT_SOLID, 1/m
+#endif
 };
 
 // Two bits where two fp16 have their signs.
@@ -63,6 +74,11 @@ FMaterialPayload PackHit(FMaterialHit Hit)
 	Payload.W6 = (packHalf2x16(Emission.rg) & ~SignsOf(3u)) | SignsOf(Hit.Channels >> 4);
 	Payload.W7 = (packHalf2x16(vec2(Emission.b, Hit.EmissiveWeight)) & ~SignsOf(3u)) | SignsOf(Hit.Channels >> 6);
 	Payload.W8 = Hit.Object;
+#ifdef HAS_TRANSMISSION
+	Payload.W8 |= (Hit.Flags & (HIT_INSIDE | HIT_SOLID)) << 21;
+	Payload.W9 = packHalf2x16(min(Hit.Absorption.rg, vec2(65504.0)));
+	Payload.W10 = (packHalf2x16(vec2(min(Hit.Absorption.b, 65504.0), 0.0)) & 0xffffu) | (uint(clamp(Hit.Transmission, 0.0, 1.0) * 65535.0 + 0.5) << 16);
+#endif
 	return Payload;
 }
 
@@ -83,7 +99,14 @@ FMaterialHit UnpackHit(FMaterialPayload Payload)
 	vec2 BlueAndWeight = unpackHalf2x16(Payload.W7 & ~SignsOf(3u));
 	Hit.Emissive = vec3(unpackHalf2x16(Payload.W6 & ~SignsOf(3u)), BlueAndWeight.x) / EmissionScale;
 	Hit.EmissiveWeight = BlueAndWeight.y;
+#ifdef HAS_TRANSMISSION
+	Hit.Object = Payload.W8 & 0xffffffu;
+	Hit.Flags |= (Payload.W8 >> 21) & (HIT_INSIDE | HIT_SOLID);
+	Hit.Transmission = float(Payload.W10 >> 16) / 65535.0;
+	Hit.Absorption = vec3(unpackHalf2x16(Payload.W9), unpackHalf2x16(Payload.W10).x);
+#else
 	Hit.Object = Payload.W8;
+#endif
 	return Hit;
 }
 

@@ -24,6 +24,30 @@ bool IsVisible(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction,
 #endif
 }
 
+// Returns the part of a light's that arrives.
+#ifdef TINTED_SHADOWS
+vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
+{
+	vec3 T = vec3(1.0);
+	for (uint Layer = 0u; Layer < MostPassages; ++Layer)
+	{
+		FMaterialHit Hit = TraceMaterial(Scene, Casters, Origin, Direction, Distance, SHOWS_NOTHING);
+		if (Hit.Distance < 0.0) { return T; }
+		if (Hit.Transmission <= 0.0) { break; }
+		T *= StraightTransmittance(Hit, Direction, Hit.Distance);
+		if (T == vec3(0.0)) { break; }
+		Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
+		Distance -= Hit.Distance;
+	}
+	return vec3(0.0);
+}
+#else
+vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
+{
+	return vec3(IsVisible(Scene, Casters, Origin, Direction, Distance) ? 1.0 : 0.0);
+}
+#endif
+
 // Returns the density with which the BRDF's sampling finds what light sampling has found. Its rays see characters, which cast nothing on
 // a character's surface: light sampling alone counts there, and FollowPath leaves out what the rays find.
 float OtherPdf(FBrdf Brdf, vec3 V, vec3 L, bool bCharacter) { return bCharacter ? 0.0 : BrdfPdf(Brdf, V, L); }
@@ -36,7 +60,9 @@ vec3 SampleSun(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 	if (dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
 	vec3 LocalToLight = ToLight * Basis;
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
-	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30)) { return vec3(0.0); }
+	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
+	BrdfCos *= LightThrough(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30);
+	if (BrdfCos == vec3(0.0)) { return vec3(0.0); }
 	if (bPointSun) { return BrdfCos * Scene.SunColor * Scene.SunIrradiance; }
 	float Pdf = SunPdf(Scene);
 	return BrdfCos * SunRadiance(Scene) * (PowerHeuristic(Pdf, OtherPdf(Brdf, V, LocalToLight, bCharacter)) / Pdf);
@@ -50,7 +76,9 @@ vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 	vec3 ToLight = Basis * LocalToLight;
 	if (LocalToLight.z <= 0.0 || dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
-	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30)) { return vec3(0.0); }
+	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
+	BrdfCos *= LightThrough(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30);
+	if (BrdfCos == vec3(0.0)) { return vec3(0.0); }
 	float Pdf = LocalToLight.z / Pi;
 	return BrdfCos * SampleSkyRadiance(Scene, ToLight) * (PowerHeuristic(Pdf, OtherPdf(Brdf, V, LocalToLight, bCharacter)) / Pdf);
 }
@@ -95,7 +123,7 @@ vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, ve
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, Sample.Direction * Basis);
 	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
 	bool bCastsShadow = (Light.Flags & LIGHT_CASTS_SHADOW) != 0u;
-	if (bCastsShadow && !IsVisible(Scene, LocalCasters(bCharacter), P, Sample.Direction, LightRayLength(Sample, P, Scene.ObjectReach))) { return vec3(0.0); }
+	if (bCastsShadow) { BrdfCos *= LightThrough(Scene, LocalCasters(bCharacter), P, Sample.Direction, LightRayLength(Sample, P, Scene.ObjectReach)); }
 	return BrdfCos * Sample.Irradiance * (TotalWeight / ChosenWeight);
 }
 
@@ -192,7 +220,9 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 #endif
 	// The shadow ray stops short of the emitter, the more so the more grazing it arrives.
 	float Margin = PositionError(Point, Scene.ObjectReach, Distance) / max(CosAtLight, 0.1);
-	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, Casters, P, ToLight, max(Distance - Margin, 0.0))) { return vec3(0.0); }
+	if (MaxComponent(Emission) <= 0.0) { return vec3(0.0); }
+	BrdfCos *= LightThrough(Scene, Casters, P, ToLight, max(Distance - Margin, 0.0));
+	if (BrdfCos == vec3(0.0)) { return vec3(0.0); }
 	float ToSolidAngle = DistanceSquared / CosAtLight;
 	float Pdf = Chance * 2.0 / Doubled * ToSolidAngle;
 	if (!bWithOther) { return BrdfCos * Emission / Pdf; }

@@ -5,6 +5,9 @@
 // DEFERS_PATHS: paths also end where none does; bRadianceDeferred then says that what they bring is void.
 // KEEPS_HIT: what the first ray of a gathered path met is kept, behind mirrors as well. See FKeptHit.
 // NO_CAUSTICS: mirrors show no sun's disk to what they light. Few paths would find it, and each would be a bright blotch.
+// HAS_TRANSMISSION: light shines through some surfaces, see Transmission.glsl. Paths go on behind them, and rays to lights pass straight on.
+//   TINTED_SHADOWS: these rays take what such surfaces leave of the light, as the reference does. Else they pass as if there were none.
+//   LIKELIEST_PASSAGE: paths take the likelier side of a surface's inside, which has no noise.
 // GUIDED_PATHS, SECOND_LOBE: see PathDirections.glsl. Gather then takes a white Lambert lobe alone.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
 // defined if the scene has such.
@@ -30,6 +33,10 @@ layout(location = 0) rayPayloadEXT FMaterialPayload MaterialPayload;
 layout(location = 1) rayPayloadEXT FShadowPayload ShadowPayload;
 #endif
 
+#ifdef HAS_TRANSMISSION
+FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance, uint Shows);
+#include "Transmission.glsl"
+#endif
 #include "PathLights.glsl"
 #ifdef RADIANCE_CELLS
 #include "RadianceLookUps.glsl"
@@ -139,6 +146,48 @@ FBrdf MakeBrdf(FMaterialHit Hit)
 	return Brdf;
 }
 
+#ifdef HAS_TRANSMISSION
+// What a path through surfaces that transmit has with it.
+struct FPassages
+{
+	vec3 Absorption; // of the volume that the path is in, 1/m
+	uint Left;       // surfaces that it may still meet
+};
+
+vec3 FirstAbsorption = vec3(0.0); // of the volume that the next path starts in. The thread may set it before
+
+FPassages StartPassages() { return FPassages(FirstAbsorption, MostPassages); }
+
+// Takes a path on if it meets an interface at Hit, and returns whether it does: else the surface reflects as others do, or the path ends with
+// a throughput of 0. Origin, Direction: of the ray that met Hit, and of the next one.
+// A path that goes through keeps the density of its direction. Light sampling at the vertex before found lights straight behind; what bends
+// counts as if it did not. One that is reflected leads where light sampling finds nothing.
+bool TakePassage(FSceneConstants Scene, FMaterialHit Hit, inout FPassages Passages, inout vec3 Origin, inout vec3 Direction,
+                 inout vec3 Throughput, inout float Pdf, inout FRandom Random)
+{
+	if (Hit.Transmission <= 0.0) { return false; }
+	vec4 U = NextRandom4(Random);
+	if (U.w >= InterfaceShare(Hit)) { return false; }
+	if (Passages.Left-- == 0u)
+	{
+		Throughput = vec3(0.0);
+		return true;
+	}
+	mat3 Basis = MakeBasis(BendNormal(Hit.Normal, -Direction));
+#ifdef LIKELIEST_PASSAGE
+	if ((Hit.Flags & HIT_INSIDE) != 0u) { U.z = 0.5; }
+#endif
+	FPassage Passage = SamplePassage(Hit, Basis, -Direction * Basis, U.xyz);
+	Throughput *= Passage.Weight;
+	if (!Passage.bThrough) { Pdf = uintBitsToFloat(0x7f800000u); }
+	else if ((Hit.Flags & HIT_SOLID) != 0u) { Passages.Absorption = (Hit.Flags & HIT_INSIDE) != 0u ? vec3(0.0) : Hit.Absorption; }
+	vec3 Side = Passage.bThrough ? -Hit.GeometricNormal : Hit.GeometricNormal;
+	Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, Side, Scene.ObjectReach, Hit.Distance);
+	Direction = Passage.Direction;
+	return true;
+}
+#endif
+
 #ifdef KEEPS_HIT
 // The first surface of a path that is no mirror.
 struct FKeptHit
@@ -167,6 +216,9 @@ void KeepHit(inout FMaterialHit Hit, vec3 Direction, vec3 Throughput, float Befo
 	FBrdf Brdf = MakeBrdf(Hit);
 	float NdotV = dot(BendNormal(Hit.Normal, -Direction), -Direction);
 	vec3 Albedo = DiffuseReflectance(Brdf, NdotV) + SpecularReflectance(Brdf, NdotV, Hit.Roughness);
+#ifdef HAS_TRANSMISSION
+	Albedo = mix(Albedo, vec3(1.0), InterfaceShare(Hit)); // about what it reflects and lets through
+#endif
 	KeptHit = FKeptHit(Before + Hit.Distance, Hit.GeometricNormal, Hit.Object, Throughput * max(Albedo, LeastAlbedo), Emission);
 	if (!bKeepsEmission) { return; }
 	KeptHit.Emission += Throughput * Hit.Emissive;
@@ -193,10 +245,25 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #ifdef KEEPS_HIT
 	bool bMirrored = true; // only mirrors have scattered the path, but for its first vertex
 #endif
+#ifdef HAS_TRANSMISSION
+	FPassages Passages = StartPassages();
+#endif
 	for (;; ++Bounce)
 	{
+#ifdef HAS_TRANSMISSION
+		Throughput *= exp(-Passages.Absorption * (Hit.Distance < 0.0 ? Infinity : Hit.Distance));
+#endif
 		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
 		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf);
+#ifdef HAS_TRANSMISSION
+		if (TakePassage(Scene, Hit, Passages, Origin, Direction, Throughput, Pdf, Random))
+		{
+			if (Throughput == vec3(0.0)) { return Radiance; }
+			Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
+			--Bounce; // no scattering event
+			continue;
+		}
+#endif
 #ifndef RADIANCE_CELLS
 		if (Bounce >= MaxBounces) { return Radiance; }
 #endif

@@ -15,6 +15,7 @@ rayQueryEXT RayQuery; // of the thread's last ray
 // Leaves what it has met in RayQuery. Flags: gl_RayFlags….
 void TraceRayQuery(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance)
 {
+	bool bToLight = (Flags & gl_RayFlagsTerminateOnFirstHitEXT) != 0u; // light shines through; who looks for surfaces meets them
 	rayQueryInitializeEXT(RayQuery, Scenes[Scene.Tlas], Flags, Mask, Origin, 0.0, Direction, MaxDistance);
 	while (rayQueryProceedEXT(RayQuery))
 	{
@@ -26,6 +27,7 @@ void TraceRayQuery(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, ve
 		FSectionData Section = FSectionRef(Scene.Sections).Data[SectionIndex];
 		// Geometry that another object alpha-tests is a candidate here as well, without being masked.
 		bool bMasked = (Section.Flags & SECTION_MASKED) != 0u;
+		if (bToLight && (Section.Flags & SECTION_TRANSMISSIVE) != 0u) { continue; }
 		if (bMasked) { CountAnyHit(Scene.AnyHitCounter); }
 		uint Primitive = rayQueryGetIntersectionPrimitiveIndexEXT(RayQuery, false);
 		vec3 TriangleHit = vec3(0.0, rayQueryGetIntersectionBarycentricsEXT(RayQuery, false));

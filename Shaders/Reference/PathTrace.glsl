@@ -4,6 +4,9 @@
 #ifndef LANTERN_PATH_TRACE_GLSL
 #define LANTERN_PATH_TRACE_GLSL
 
+#ifdef HAS_TRANSMISSION
+#define TINTED_SHADOWS
+#endif
 #include "../Shared/ReferenceTypes.h"
 #include "../Library/GBuffer.glsl"
 #include "../Library/View.glsl"
@@ -36,6 +39,10 @@ vec3 TraceSignal(FSceneConstants Scene, FMaterialHit Hit, vec3 P, vec3 V, inout 
 #endif
 
 #ifdef FROM_GBUFFER
+#ifdef HAS_TRANSMISSION
+#include "../Transmission/Layers.glsl"
+#endif
+
 FMaterialHit LoadRasterHit(ivec2 Pixel, FGBufferPoint Point)
 {
 	vec4 BaseColor = texelFetch(Textures[Push.BaseColor], Pixel, 0);
@@ -53,6 +60,10 @@ FMaterialHit LoadRasterHit(ivec2 Pixel, FGBufferPoint Point)
 	Hit.EmissiveWeight = 0.0; // it counts whole, as nothing else samples it for the camera
 	Hit.Flags = 0u;
 	Hit.Channels = AllChannels;
+#ifdef HAS_TRANSMISSION
+	Hit.Transmission = 0.0;
+	Hit.Absorption = vec3(0.0);
+#endif
 #ifdef HAS_LIGHT_CHANNELS
 	Hit.Channels = LoadPixelChannels(Push.Channels, uvec2(Pixel));
 #endif
@@ -68,6 +79,16 @@ vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel,
 	ChooseGatherMask(Push.ToonPixels, Pixel);
 	return TraceSignal(Scene, LoadRasterHit(Pixel, Point), RasterRayOrigin(Scene, View, Point), Point.V, Random);
 #else
+#ifdef HAS_TRANSMISSION
+	vec3 Start = View.CameraPosition + CameraRayStart(View, vec2(Pixel) + 0.5), Direction = CameraRay(View, vec2(Pixel) + 0.5);
+	float Left = Infinity;
+	if (Depth > 0.0) { Left = DistanceBefore(DistanceFromDepth(View, Depth) / dot(Direction, View.CameraForward)); }
+	FMaterialHit Layer;
+	if (FindLayer(Scene, Start, Direction, Left, Layer))
+	{
+		return FollowPath(Scene, Layer, Start, Direction, CameraPdf, 1.0, 0u, Push.MaxBounces, true, Random);
+	}
+#endif
 	if (Depth <= 0.0) { return ShadeMiss(Scene, CameraRay(View, vec2(Pixel) + 0.5), CameraPdf, 1.0, AllChannels); }
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	FMaterialHit Hit = LoadRasterHit(Pixel, Point);

@@ -77,6 +77,7 @@ LANTERN_ASSERT_SIZE(FVertexStreams, 104);
 #define SECTION_IS_PIECES 512u
 // The vertices lie in a host's own buffers: Attributes is the address of an FVertexStreams.
 #define SECTION_STREAMS 1024u
+#define SECTION_TRANSMISSIVE 2048u // light shines through: rays to lights pass, others meet it
 
 // One section of an object: its triangles and its material. It is the local data of a hit record, and an entry of the section
 // table that inline ray queries read.
@@ -93,6 +94,7 @@ LANTERN_ASSERT_SIZE(FSectionData, 32);
 // FMaterialData::Flags
 #define MATERIAL_MASKED 1u
 #define MATERIAL_DOUBLE_SIDED 2u
+#define MATERIAL_SOLID 4u // what light shines through is the surface of a volume, which bends and absorbs it. Else it is a thin sheet
 
 #define NO_TEXTURE 0xffffffffu
 
@@ -107,9 +109,10 @@ LANTERN_ASSERT_SIZE(FSectionData, 32);
 #define TEXTURE_NORMAL 2
 #define TEXTURE_OCCLUSION 3
 #define TEXTURE_EMISSIVE 4
-#define TEXTURE_SLOTS 5
+#define TEXTURE_TRANSMISSION 5
+#define TEXTURE_SLOTS 6
 
-// glTF 2.0 metallic-roughness, with the extensions emissive_strength, ior, specular, transmission, texture_transform.
+// glTF 2.0 metallic-roughness, with the extensions emissive_strength, ior, specular, transmission, volume, texture_transform.
 struct FMaterialData
 {
 	vec4 BaseColor; // linear; a: opacity
@@ -129,8 +132,9 @@ struct FMaterialData
 	vec2 UVOffset[TEXTURE_SLOTS];    // added after UVTransform
 	vec3 LightEmissive;   // as Emissive, where it lights something: cameras and mirrors do not see it
 	float EmissiveWeight; // luminance of the mean of LightEmissive, rounded to fp16
+	vec3 Absorption;      // of MATERIAL_SOLID: coefficient, 1/m
 };
-LANTERN_ASSERT_SIZE(FMaterialData, 224);
+LANTERN_ASSERT_SIZE(FMaterialData, 264);
 
 // The world is divided into cells. Positions are fp32, relative to the centre of a cell, and offsets between cells are exact in
 // fp32. Precision thus does not degrade far away from the world's origin.
@@ -168,6 +172,7 @@ LANTERN_ASSERT_SIZE(FObjectMotion, 72);
 #define MASK_LOCAL 16u     // casts from local lights
 // Rays that light a surface with a toon sphere meet objects without one alone. Objects that are visible have it, but those with a sphere.
 #define MASK_OUTSIDE_SPHERES 32u
+#define MASK_TRANSMISSIVE 64u // objects that light shines through somewhere; the scene takes it away from others
 // Rays for shadows. Whose mask has none of these casts none.
 #define MASK_CASTERS (MASK_SUN | MASK_SUN_MOVING | MASK_CHARACTER | MASK_LOCAL)
 // Rays from a surface to a light: SunCasters and LocalCasters in Casters.glsl say what surface they leave.

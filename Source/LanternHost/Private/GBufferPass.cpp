@@ -174,7 +174,7 @@ bool FGBufferPass::ChooseMotion(const FFrameContext& Context, const FHostScene& 
 	return bWanted;
 }
 
-void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion)
+void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion, bool bTransmissive)
 {
 	if (FRTStatus S = Draws.Make(Scene, Renderer.GetUploads(), Frame.View, MinPixels); !S) { return Frame.Fail(S); }
 	IRTPipeline* Bound = nullptr;
@@ -182,6 +182,7 @@ void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHost
 	for (const FDrawList::FRun& Run : Draws.GetRuns())
 	{
 		const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Run.Batch];
+		if (Batch.bTransmissive && !bTransmissive) { continue; }
 		const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : Run.bMirrored ? ERTCull::Front : ERTCull::Back;
 		IRTPipeline* const Pipeline = Pipelines.at({Batch.Program, Batch.bMasked && Frame.Facts.bMasked, Cull, bWithMotion});
 		if (!Pipeline) { continue; }
@@ -212,6 +213,7 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 	Out.Motion = Targets[4];
 	Out.bNamesObjects = true;
 	FFrameContext* const Frame = &Context;
+	const bool bTransmissive = !IsTransmissionShown(Context);
 	Graph.AddPass("GBuffer", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (uint32_t I = 0; I < ColorCount; ++I) { Builder.Write(Targets[I], ERTAccess::RenderTarget); }
 		Builder.Write(Out.Depth, ERTAccess::DepthWrite);
@@ -227,7 +229,7 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 			Desc.Width = Frame->Width;
 			Desc.Height = Frame->Height;
 			Pass.Commands().BeginRasterPass(Desc);
-			RecordDraws(*Frame, Pass.Commands(), Scene, bWithMotion);
+			RecordDraws(*Frame, Pass.Commands(), Scene, bWithMotion, bTransmissive);
 			Pass.Commands().EndRasterPass();
 		};
 	});

@@ -109,7 +109,9 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 		Data.Ior = Source.Ior;
 		Data.Specular = Source.Specular;
 		Data.Transmission = Source.Transmission;
-		Data.Flags = (Source.AlphaMode != EAlphaMode::Opaque ? MATERIAL_MASKED : 0u) | (Source.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u);
+		Data.Absorption = Source.Absorption;
+		Data.Flags = (Source.AlphaMode != EAlphaMode::Opaque ? MATERIAL_MASKED : 0u) | (Source.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |
+		             (Source.bSolid ? MATERIAL_SOLID : 0u);
 		glm::vec3 MeanEmission = Data.LightEmissive;
 		for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot)
 		{

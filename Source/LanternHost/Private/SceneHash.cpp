@@ -108,7 +108,8 @@ public:
 		AddFloats(V.Emissive);
 		if (V.LightEmissive) { AddFloats(*V.LightEmissive); }
 		AddAll(V.Metallic, V.Roughness, V.NormalScale, V.OcclusionStrength, V.AlphaCutoff, V.Ior, V.Specular, V.Transmission, V.AlphaMode,
-		    V.bDoubleSided);
+		    V.bDoubleSided, V.bSolid);
+		AddFloats(V.Absorption);
 		for (const FHostTextureSlot& Slot : V.Slots) { Add(Slot); }
 		Hash.AddText(V.Program);
 	}

@@ -192,6 +192,7 @@ void FShadowMapPass::AddCascade(FFrameContext& Context, FHostScene& Scene, const
 			for (const FDrawList::FRun& Run : Draws.GetRuns())
 			{
 				const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Run.Batch];
+				if (Batch.bTransmissive && Frame->Facts.bTransmissive) { continue; } // as rays have it
 				const bool bMasked = Batch.bMasked && Frame->Facts.bMasked;
 				List.SetPipeline(Pipelines.at({bMasked ? Batch.Program : StandardProgram, bMasked}));
 				List.SetIndexBuffer(Batch.Indices, 0, ERTIndexType::UInt32);

@@ -221,7 +221,8 @@ FRTStatus CheckTransform(const double Transform[12])
 
 std::array<const FRTModuleMap*, MaterialMapCount> GetMaps(const FRTModuleMaterial& Material)
 {
-	return {&Material.BaseColorMap, &Material.MetallicRoughnessMap, &Material.NormalMap, &Material.OcclusionMap, &Material.EmissiveMap};
+	return {&Material.BaseColorMap, &Material.MetallicRoughnessMap, &Material.NormalMap, &Material.OcclusionMap, &Material.EmissiveMap,
+	    &Material.TransmissionMap};
 }
 
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
@@ -250,8 +251,13 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	{
 		return Refuse("FRTModuleMaterial::EmissiveMapMean must be finite and not negative");
 	}
+	const auto IsColor = [](float Value) { return Value > 0.0f && Value <= 1.0f; };
+	if (!std::all_of(Material.AttenuationColor, Material.AttenuationColor + 3, IsColor) || !(Material.AttenuationDistance > 0.0f))
+	{
+		return Refuse("FRTModuleMaterial::AttenuationColor must be greater than 0 and at most 1, and AttenuationDistance greater than 0");
+	}
 	FRTStatus Status;
-	const char* const Names[] = {"BaseColorMap", "MetallicRoughnessMap", "NormalMap", "OcclusionMap", "EmissiveMap"};
+	const char* const Names[] = {"BaseColorMap", "MetallicRoughnessMap", "NormalMap", "OcclusionMap", "EmissiveMap", "TransmissionMap"};
 	const std::array<const FRTModuleMap*, MaterialMapCount> Maps = GetMaps(Material);
 	for (size_t Map = 0; Map < Maps.size() && Status; ++Map) { Status = CheckMap(*Maps[Map], Names[Map]); }
 	return Status;

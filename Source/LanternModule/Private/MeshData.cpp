@@ -306,7 +306,9 @@ FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 	Data.Ior = Material.Ior;
 	Data.Specular = Material.Specular;
 	Data.Transmission = Material.Transmission;
-	Data.Flags = (Material.bMasked ? MATERIAL_MASKED : 0u) | (Material.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u);
+	Data.Absorption = glm::min(-glm::log(ReadVector(Material.AttenuationColor, 0)) / Material.AttenuationDistance, glm::vec3(1.0e6f));
+	Data.Flags = (Material.bMasked ? MATERIAL_MASKED : 0u) | (Material.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |
+	             (Material.bSolid ? MATERIAL_SOLID : 0u);
 	const std::array<const FRTModuleMap*, MaterialMapCount> Maps = GetMaps(Material);
 	static_assert(MaterialMapCount == TEXTURE_SLOTS);
 	for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot)

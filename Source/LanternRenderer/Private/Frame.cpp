@@ -9,6 +9,7 @@
 #include "LocalLights/LocalLights.h"
 #include "Reflections/Reflections.h"
 #include "SunShadow/SunShadow.h"
+#include "Transmission/Transmission.h"
 
 namespace Lantern
 {
@@ -24,12 +25,14 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 	Out.LightMask = AddLightMaskPass(Context, GBuffer);
 	Out.Get(ESignal::AmbientOcclusion) = AddAmbientOcclusionPass(Context, GBuffer);
 	Out.Get(ESignal::Reflections) = AddReflectionsPass(Context, GBuffer);
+	Out.Transmission = AddTransmissionPass(Context, GBuffer);
 	Out.Get(ESignal::DiffuseGI) = AddDiffuseGIPass(Context, GBuffer);
 	Out.Get(ESignal::RoughSpecular) = AddRoughSpecularPass(Context, GBuffer);
 	Out.Lighting =
 	    AddDirectLightingPass(Context, {GBuffer, Out.Get(ESignal::SunShadow), Out.Get(ESignal::AmbientOcclusion),
 	                                       Out.Get(ESignal::DiffuseGI), Out.Get(ESignal::Reflections), Out.Get(ESignal::RoughSpecular),
 	                                       Out.Get(ESignal::LocalDiffuse), Out.Get(ESignal::LocalSpecular)});
+	Out.Lighting = AddTransmissionComposite(Context, Out.Lighting, Out.Transmission);
 	Out.Lighting = AddHeightFogPass(Context, GBuffer, Out.Lighting, Out.Fog);
 	Out.Display = AddToneMapPass(Context, Out.Lighting);
 	Out.Display = AddDebugView(Context, GBuffer, Out);

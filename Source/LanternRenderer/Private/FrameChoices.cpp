@@ -13,6 +13,9 @@ namespace
 {
 TRTConsoleVariable<bool> CVarAlphaTest(
     "r.RT.AlphaTest", true, "Alpha tests of masked materials, in raster and under rays. Off: masked surfaces are solid.");
+TRTConsoleVariable<bool> CVarTransmission("r.RT.Transmission", true,
+    "Light shines through materials that say so (glTF: transmission), in the picture, under rays, and to what lies behind. Off: they are "
+    "opaque.");
 TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
     "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "
     "Lambert of 0.5.",
@@ -42,6 +45,7 @@ uint32_t GetCastingKinds()
 void ApplySceneVariables(FRTScene& Scene)
 {
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
+	Scene.SetTransmission(CVarTransmission.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
 	Scene.SetCastingLights(GetCastingKinds());
 }
@@ -57,6 +61,7 @@ FSignalRequests CompleteRequests(FSignalRequests Requests)
 {
 	if (Requests.bNothingElse) { return Requests; }
 	Requests.Wanted.Add(GetDebugView());
+	Requests.bTransmission = true;
 	if (HasHeightFog())
 	{
 		Requests.bFog = true;

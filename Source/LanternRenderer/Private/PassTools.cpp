@@ -14,6 +14,8 @@ TRTConsoleVariable<bool> CVarLightArea(
 TRTConsoleVariable<bool> CVarLightProfile(
     "r.RT.Debug.Lights.Profile", true, "Planted fault. Off: lights with a profile shine alike in all directions.");
 TRTConsoleVariable<bool> CVarLightChannels("r.RT.Debug.Lights.Channels", true, "Planted fault. Off: lights light objects of all channels.");
+TRTConsoleVariable<bool> CVarSheet("r.RT.Debug.Transmission.Sheet", true,
+    "Planted fault. Off: a thin sheet reflects as one interface, and not as two with all that goes to and fro between them.");
 TRTConsoleVariable<bool> CVarLightEmission("r.RT.Debug.Lights.LightEmission", true,
     "Planted fault. Off: materials light with what cameras see of them, whatever their second emission is.");
 } // namespace
@@ -93,6 +95,13 @@ void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
 	if (Facts.bLightEmission && CVarLightEmission.GetOnRenderThread()) { InOut.emplace_back("HAS_LIGHT_EMISSION", "1"); }
 }
 
+void AddTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
+{
+	if (!Facts.bTransmissive) { return; }
+	InOut.emplace_back("HAS_TRANSMISSION", "1");
+	if (!CVarSheet.GetOnRenderThread()) { InOut.emplace_back("ONE_INTERFACE", "1"); }
+}
+
 FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines;
@@ -114,6 +123,7 @@ FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 FShaderDefines MakePathDefines(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines = MakeFactDefines(Facts);
+	AddTransmissionDefine(Facts, Defines);
 	if (Facts.bEmissive) { Defines.emplace_back("HAS_EMISSIVE", "1"); }
 	if (Facts.bCharacters) { Defines.emplace_back("HAS_CHARACTERS", "1"); }
 	return Defines;

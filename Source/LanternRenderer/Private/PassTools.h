@@ -74,6 +74,9 @@ bool IsRayTracingEnabled();
 /// Adds HAS_LIGHT_EMISSION if some material lights otherwise than it looks. Shaders that read emission of hits need it.
 void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
 
+/// Adds HAS_TRANSMISSION if light shines through some material. Shaders that read hits, or what any-hit shaders decide, need it.
+void AddTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
+
 /// Returns HAS_… for what the scene has, so that shaders are compiled without the rest.
 FShaderDefines MakeFactDefines(const FSceneFacts& Facts);
 

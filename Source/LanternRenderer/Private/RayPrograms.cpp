@@ -16,6 +16,7 @@
 #include "RadianceCells/RadianceCells.h"
 #include "Reference/Reference.h"
 #include "SignalPasses.h"
+#include "Transmission/Transmission.h"
 
 namespace Lantern
 {
@@ -23,17 +24,19 @@ namespace Lantern
 namespace
 {
 constexpr uint32_t ShadowPayloadBytes = 4;
-constexpr uint32_t MaterialPayloadBytes = 36;
+constexpr uint32_t MaterialPayloadBytes = 36, TransmissionBytes = 8;
 
 FShaderSource Shader(const char* Path) { return {Path, ERTShaderStage::RayGen, {}, {}}; }
 
-FRayType MakeShadowRay(bool bBlockers)
+FRayType MakeShadowRay(const FSceneFacts& Facts, bool bBlockers)
 {
 	FRayType Type;
 	Type.Name = "SHADOW";
 	Type.Miss = Shader("Rays/Shadow.rmiss");
 	Type.MaskedAnyHit = Shader("Rays/AlphaTest.rahit");
 	Type.MaskedAnyHit.Defines = FAnyHitCounter::GetDefines();
+	AddTransmissionDefine(Facts, Type.MaskedAnyHit.Defines);
+	if (Facts.bTransmissive) { Type.MaskedAnyHit.Defines.emplace_back("TO_LIGHT", "1"); }
 	if (bBlockers)
 	{
 		Type.ClosestHit = Shader("Rays/Shadow.rchit");
@@ -52,7 +55,10 @@ FRayType MakeMaterialRay(const FSceneFacts& Facts)
 	AddLightEmissionDefine(Facts, Type.ClosestHit->Defines);
 	Type.MaskedAnyHit = Shader("Rays/AlphaTest.rahit");
 	Type.MaskedAnyHit.Defines = FAnyHitCounter::GetDefines();
-	Type.PayloadBytes = MaterialPayloadBytes;
+	AddTransmissionDefine(Facts, Type.Miss.Defines);
+	AddTransmissionDefine(Facts, Type.ClosestHit->Defines);
+	AddTransmissionDefine(Facts, Type.MaskedAnyHit.Defines);
+	Type.PayloadBytes = MaterialPayloadBytes + (Facts.bTransmissive ? TransmissionBytes : 0);
 	return Type;
 }
 
@@ -139,6 +145,7 @@ void CollectPass(FCollector& Collector, EPassRayGen Pass, const char* Path, FPas
 {
 	if (Rays.Path == ERayPath::None) { return; }
 	std::vector<FShaderSource>& Compute = Collector.Programs.Compute;
+	Collector.Programs.bLightSampling |= Rays.bShadesHits;
 	if (Rays.Path == ERayPath::Query)
 	{
 		Collector.Programs.bQueries = true;
@@ -176,6 +183,7 @@ FRayPrograms ChooseRayPrograms(
 		CollectPass(Collector, EPassRayGen::Fog, FogShaders, ChooseFogRays(Query), Facts);
 		CollectPass(
 		    Collector, EPassRayGen::RadianceCells, RadianceCellShaders, ChooseRadianceCellRays(Query, Collector.RadianceCells), Facts);
+		CollectPass(Collector, EPassRayGen::Transmission, TransmissionShaders, ChooseTransmissionRays(Query), Facts);
 		Programs.bMotion = (Programs.bMotion && Features.bMotion) || Collector.bFollowsHits;
 	}
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }
@@ -190,7 +198,7 @@ FRayPrograms ChooseRayPrograms(
 		Programs.PassRayGens.fill(std::nullopt);
 		return Programs;
 	}
-	Desc.RayTypes = {MakeShadowRay(Collector.bBlockers)};
+	Desc.RayTypes = {MakeShadowRay(Scene.GetFacts(), Collector.bBlockers)};
 	if (Collector.bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay(Scene.GetFacts())); }
 	Desc.Callables = Features.Callables;
 	Desc.HitPrograms = Scene.GetSections().GetHitPrograms();

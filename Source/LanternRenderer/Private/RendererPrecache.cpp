@@ -12,6 +12,7 @@
 #include "Sky/SkyLight.h"
 #include "ToneMap/ToneMap.h"
 #include "Toon/Toon.h"
+#include "Transmission/Transmission.h"
 
 namespace Lantern
 {
@@ -24,6 +25,7 @@ void ListCompositeShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 	Out.push_back(MakeLightingSource(Facts));
 	ListLightCellShaders(Facts, Out);
 	ListToonShaders(Facts, false, Out);
+	ListTransmissionComposite(Facts, Out);
 	if (HasHeightFog()) { Out.push_back(MakeHeightFogSource(Facts)); }
 	Out.push_back(MakeToneMapSource());
 	if (Facts.bSkyMap && HasSkyAmbient(Facts)) { Out.push_back(MakeSkyLightSource()); }

@@ -15,13 +15,14 @@ namespace Lantern::Gltf
 namespace
 {
 
-constexpr std::array<std::string_view, 9> SupportedExtensions = {
+constexpr std::array<std::string_view, 10> SupportedExtensions = {
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_volume",
     "KHR_texture_transform",
     "KHR_mesh_quantization",
     "EXT_mesh_gpu_instancing",

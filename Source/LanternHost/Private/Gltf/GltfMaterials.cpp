@@ -135,9 +135,22 @@ void ReadExtensions(FDocument& Document, const FJson& Json, FHostMaterial& Mater
 	{
 		Document.Warn("KHR_materials_specular: only specularFactor is read");
 	}
+}
+
+/// What shines through the material, and what of it is absorbed: −ln(attenuationColor) / attenuationDistance.
+void ReadTransmission(FDocument& Document, FTextureTable& Table, const FJson& Json, FHostMaterial& Material)
+{
 	const FJson Transmission = Json.Extension("KHR_materials_transmission");
 	Material.Transmission = Clamp01(Transmission, "transmissionFactor", 0.0f);
-	if (Material.Transmission > 0) { Document.Warn("KHR_materials_transmission: transmissive materials are rendered as opaque"); }
+	ReadSlot(Document, Table, Transmission, "transmissionTexture", false, Material.Slots[TEXTURE_TRANSMISSION]);
+	const FJson Volume = Json.Extension("KHR_materials_volume");
+	Material.bSolid = Volume.GetFloat("thicknessFactor", 0.0f) > 0.0f;
+	if (!Volume.Member("attenuationDistance").Exists()) { return; }
+	const float Distance = Volume.GetFloat("attenuationDistance", 0.0f);
+	if (!(Distance > 0.0f)) { Volume.Fail(fmt::format("attenuationDistance {} is not greater than 0", Distance)); }
+	constexpr float Darkest = 1.0e-6f, Most = 1.0e6f; // what is black absorbs all within a fraction of the distance
+	const glm::vec3 Color = glm::clamp(Volume.GetVec3("attenuationColor", glm::vec3(1)), glm::vec3(Darkest), glm::vec3(1));
+	Material.Absorption = glm::min(-glm::log(Color) / Distance, glm::vec3(Most));
 }
 
 /// Reads extras.lantern of a material: what it lights with, if that is not what it looks like.
@@ -202,6 +215,7 @@ FHostMaterial ReadMaterial(FDocument& Document, FTextureTable& Table, const FJso
 	Material.OcclusionStrength = Clamp01(Occlusion, "strength", 1.0f);
 	ReadAlpha(Document, Json, Material);
 	ReadExtensions(Document, Json, Material);
+	ReadTransmission(Document, Table, Json, Material);
 	ReadUnlit(Document, Json, Material);
 	ReadLightEmission(Json, Material);
 	return Material;

@@ -91,8 +91,8 @@ struct FRTModuleMap
 	float UVOffset[2] = {0, 0};
 };
 
-/// A material of glTF 2.0 metallic-roughness, with its maps and the extensions ior, specular and transmission. All values must
-/// be finite, and colours not negative. Maps multiply the values beside them.
+/// A material of glTF 2.0 metallic-roughness, with its maps and the extensions ior, specular, transmission and volume. All values
+/// must be finite, and colours not negative. Maps multiply the values beside them.
 struct FRTModuleMaterial
 {
 	float BaseColor[4] = {1, 1, 1, 1}; ///< linear; a: opacity
@@ -103,7 +103,9 @@ struct FRTModuleMaterial
 	float OcclusionStrength = 1.0f;    ///< of the occlusion map, 0–1
 	float Ior = 1.5f;                  ///< of a dielectric, ≥ 1
 	float Specular = 1.0f;             ///< KHR_materials_specular: specularFactor, 0–1
-	float Transmission = 0.0f;         ///< 0–1
+	/// Share of light that is not reflected by the dielectric layer and shines through, 0–1. Rays to lights pass where a section of a
+	/// mesh may be masked (FRTModuleSection::bMayBeMasked); others cast shadows.
+	float Transmission = 0.0f;
 	FRTModuleMap BaseColorMap;         ///< sRGB format; the alpha test reads its alpha
 	FRTModuleMap MetallicRoughnessMap; ///< g: roughness, b: metalness
 	FRTModuleMap NormalMap;            ///< tangent space, from 0–1 to −1–1; only on meshes with tangents
@@ -118,6 +120,11 @@ struct FRTModuleMaterial
 	/// Emissive. EmissiveMap multiplies both. Only with bLightEmissive.
 	float LightEmissive[3] = {0, 0, 0};
 	bool bLightEmissive = false;
+	FRTModuleMap TransmissionMap; ///< r
+	bool bSolid = false;          ///< with Transmission: the surface of a volume, which bends light. Else a thin sheet
+	/// Of what is solid: the colour that white light has after AttenuationDistance, 0–1 and > 0 (KHR_materials_volume).
+	float AttenuationColor[3] = {1, 1, 1};
+	float AttenuationDistance = 1.0f; ///< metres, > 0
 };
 
 /// What an engine knows of an object's future.

@@ -126,7 +126,8 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 	const FRadianceEvents::FFound Events =
 	    Context.RadianceEvents->Find(Context.Scene, MakeGatherView(Context.View).Position, Context.View.DeltaSeconds);
 	Cells->Grid = MakeGrid(Context, Cells->Slots, Events);
-	Cells->Grid.VoteCount = CountPathVoters(Context) + CountBlockVoters(Context);
+	const uint32_t Others = Context.Facts.bTransmissive && Context.Signals.bTransmission ? 2 : 1;
+	Cells->Grid.VoteCount = CountPathVoters(Context) + Others * CountBlockVoters(Context);
 	Cells->EventFrames = Events.Window;
 	FHistoryBuffer History;
 	FRTStatus Status = Context.History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);

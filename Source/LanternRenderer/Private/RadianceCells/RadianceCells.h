@@ -37,7 +37,8 @@ uint32_t CountPathVoters(const FFrameContext& Context);
 inline uint32_t CountBlockVoters(const FFrameContext& Context) { return DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2); }
 /// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells. Path: as in
 /// ChooseRadianceCellRays. Look-ups that may vote have places of their own in FRadianceGrid::Votes, which they write in any case. First come
-/// CountPathVoters of the pass that keeps the cells, then CountBlockVoters of one other pass, which is added before AddRadianceCellPasses.
+/// CountPathVoters of the pass that keeps the cells, then CountBlockVoters of reflections and, with FSignalRequests::bTransmission, as many of
+/// surfaces that light shines through. These are added before AddRadianceCellPasses.
 const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path);
 /// Declares that a pass looks cells up and asks for those that it misses. Cells may be null.
 void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells);

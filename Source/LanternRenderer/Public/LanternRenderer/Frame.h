@@ -42,6 +42,7 @@ struct FFrameOutputs
 	FGraphTexture Display;                          ///< RGBA8_UNORM, tone-mapped, sRGB-encoded
 	FFogAtlas Fog;                                  ///< with FSignalRequests::bFog
 	FLightMask LightMask;                           ///< with FSignalRequests::bLightMask
+	FTransmission Transmission;                     ///< with FSignalRequests::bTransmission
 	FGraphTexture& Get(ESignal Signal) { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
 	const FGraphTexture& Get(ESignal Signal) const { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
 };
@@ -61,6 +62,13 @@ void AddFogDepthPass(FFrameContext& Context, const FGBuffer& GBuffer);
 /// Adds the light mask, and returns it; later calls of a frame return what the first one did. Reads Depth, Normals and, if there is any,
 /// Motion of the G-buffer.
 FLightMask AddLightMaskPass(FFrameContext& Context, const FGBuffer& GBuffer);
+
+/// Returns whether rays show the surfaces that light shines through, so that a host leaves them out of its G-buffer. False: there are none,
+/// nobody asks for them, or shaders are being compiled, and they may stand in as opaque surfaces.
+bool IsTransmissionShown(const FFrameContext& Context);
+/// Adds what these surfaces show, and returns it; later calls of a frame return what the first one did. It is added before the signals of
+/// indirect light: its rays ask for radiance cells as well. Reads Depth of the G-buffer. Invalid: as IsTransmissionShown says.
+FTransmission AddTransmissionPass(FFrameContext& Context, const FGBuffer& GBuffer);
 
 /// Makes FGBuffer::Motion of a world that stands still, from depth alone, with w = 0.
 FGraphTexture AddCameraMotionPass(FFrameContext& Context, FGraphTexture Depth);

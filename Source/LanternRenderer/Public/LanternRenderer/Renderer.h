@@ -60,6 +60,8 @@ struct FSignalRequests
 	/// Somebody reads the light mask (FLightMask), and lights by itself with it. The signals of local lights, and with them the composite,
 	/// then lack the lights of the mask.
 	bool bLightMask = false;
+	/// Somebody reads what surfaces that light shines through show (FTransmission).
+	bool bTransmission = false;
 };
 
 /// What a frame is to do beside its cameras and console variables.
@@ -202,6 +204,14 @@ struct FFogOfFrame
 	bool bAsked = false, bDepthAsked = false;
 };
 
+/// Surfaces in front of the G-buffer's that light shines through: Light + Transmittance · what the G-buffer's surface sends.
+struct FTransmission
+{
+	FGraphTexture Light;         ///< RGBA16_FLOAT: radiance that they send to the camera
+	FGraphTexture Transmittance; ///< RGBA8_UNORM: share of what lies behind that they leave
+	bool IsValid() const { return Light.IsValid(); }
+};
+
 /// What pixels see of lights, for a host that lights by itself: FRTModuleLightMask says how it is read.
 struct FLightMask
 {
@@ -233,6 +243,7 @@ enum class EPassRayGen : uint8_t
 {
 	Fog,
 	RadianceCells,
+	Transmission,
 	DeferredPaths, ///< of a signal whose paths end in radiance cells: the second launch
 	Count
 };
@@ -303,6 +314,7 @@ struct FFrameContext
 	std::optional<FLobes> LocalLobes;            ///< of local lights, not filtered; nullopt: not shaded so far
 	std::optional<FLobes> IndirectLobes;         ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
 	std::optional<FGraphTexture> ReflectedLight; ///< the signal; nullopt: nobody has asked so far
+	std::optional<FTransmission> Transmission;   ///< nullopt: nobody has asked so far
 	std::optional<FLightMask> LightMask;         ///< nullopt: nobody has asked so far
 	FLampChangesOfFrame LampChanges;
 	FMoversOfFrame Movers;

@@ -49,7 +49,7 @@ FKernelRule MakeKernelRule(const FCullingRule& Rule, const glm::dvec3& Center)
 inline void WriteInstance(
     FRTInstance* Out, const float* Transform, const glm::vec3& Offset, uint32_t IndexAndMask, const FInstanceBinding& Binding)
 {
-	const uint64_t Words[2] = {IndexAndMask | (uint64_t(Binding.TableOffsetAndFlags) << 32), Binding.GeometryAddress};
+	const uint64_t Words[2] = {(IndexAndMask & Binding.MaskBits) | (uint64_t(Binding.TableOffsetAndFlags) << 32), Binding.GeometryAddress};
 #if defined(__SSE2__)
 	float* const To = reinterpret_cast<float*>(Out);
 	for (int Row = 0; Row < 3; ++Row)

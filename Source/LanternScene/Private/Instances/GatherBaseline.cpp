@@ -27,7 +27,7 @@ bool GatherOne(const FInstanceStore& Store, const FInstanceRecord& Record, const
 	std::memcpy(Out.Transform, Object.ObjectToWorld, sizeof(Out.Transform));
 	const glm::vec3 Offset = CellOffset(Object.Cell, Origin);
 	for (int Row = 0; Row < 3; ++Row) { Out.Transform[4 * Row + 3] += Offset[Row]; }
-	Out.CustomIndexAndMask = Index | (uint32_t(Mask) << 24);
+	Out.CustomIndexAndMask = (Index | (uint32_t(Mask) << 24)) & Binding.MaskBits;
 	Out.TableOffsetAndFlags = Binding.TableOffsetAndFlags;
 	Out.GeometryAddress = Binding.GeometryAddress;
 	return true;

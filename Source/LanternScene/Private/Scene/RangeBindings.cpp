@@ -36,6 +36,7 @@ FInstanceBinding FRangeBindings::Make(const FSectionTable& Sections, const FSect
 	const uint32_t Flags = (Range.bMasked ? 0u : InstanceForceOpaque) | (Range.bDoubleSided ? InstanceCullDisable : 0u);
 	FInstanceBinding Binding;
 	Binding.TableOffsetAndFlags = ((Range.First * RayTypes) & 0xffffffu) | (Flags << 24);
+	if (!Range.bTransmissive) { Binding.MaskBits &= ~(uint32_t(MASK_TRANSMISSIVE) << 24); }
 	Binding.GeometrySlot = Range.Geometry->GetSlot();
 	Binding.GeometryAddress = Geometries.GetAddress(Binding.GeometrySlot);
 	return Binding;

@@ -65,6 +65,12 @@ void FRTScene::SetAlphaTest(bool bEnabled)
 	Materials.SetAlphaTest(bEnabled);
 }
 
+void FRTScene::SetTransmission(bool bEnabled)
+{
+	if (Materials.GetContext().bTransmission != bEnabled) { Objects.GetCasterChanges().AddAnywhere(); }
+	Materials.SetTransmission(bEnabled);
+}
+
 FLightId FRTScene::AddLight(const FSceneLight& Light)
 {
 	const FLightId Id = Lights.GetStore().Add(Light);

@@ -110,4 +110,9 @@ void FSceneMaterials::SetAlphaTest(bool bEnabled)
 	if (std::exchange(Context.bAlphaTest, bEnabled) != bEnabled) { Sections.RefillAll(); }
 }
 
+void FSceneMaterials::SetTransmission(bool bEnabled)
+{
+	if (std::exchange(Context.bTransmission, bEnabled) != bEnabled) { Sections.RefillAll(); }
+}
+
 } // namespace Lantern

@@ -58,6 +58,7 @@ const FSceneFacts& FSceneUpdate::RefreshFacts()
 	Facts.bMasked = Sections.GetMaskedRangeCount() > 0;
 	Facts.bOwnShapes = std::any_of(Sections.GetHitPrograms().begin(), Sections.GetHitPrograms().end(), HasOwnShape);
 	Facts.bEmissive = Sections.GetEmissiveRangeCount() > 0;
+	Facts.bTransmissive = Sections.GetTransmissiveRangeCount() > 0;
 	Facts.bLightEmission = Sections.GetLightEmissionRangeCount() > 0;
 	RefreshLightFacts();
 	return Facts;

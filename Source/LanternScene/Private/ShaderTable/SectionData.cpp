@@ -39,7 +39,16 @@ bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
 	return Info.bOpaqueVertices && Material.UVTransform[TEXTURE_BASE_COLOR] == glm::vec4(1, 0, 0, 1) &&
 	       Material.UVOffset[TEXTURE_BASE_COLOR] == glm::vec2(0);
 }
+bool IsAlphaTested(const FSectionContext& Context, const FRTGeometryPart& Part, const FMaterialData& Material)
+{
+	return Context.bAlphaTest && Context.Override != 2 && !Part.bOpaque && (Material.Flags & MATERIAL_MASKED) != 0;
+}
 } // namespace
+
+bool IsTransmissive(const FSectionContext& Context, const FMaterialData& Material)
+{
+	return Context.bTransmission && Context.Override == 0 && LightShinesThrough(Material);
+}
 
 bool MayListEmissive(const FRTGeometry& Geometry, uint32_t Section)
 {
@@ -51,9 +60,9 @@ FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& 
 {
 	const uint32_t Program = Material < Context.Programs.size() ? Context.Programs[Material] : StandardProgram;
 	if (Geometry.GetInfo().Sections[Part.Section].bProcedural) { return {Program, ERTHitClass::Procedural}; }
-	const bool bAlphaTest = Context.bAlphaTest && Context.Override != 2;
 	const FMaterialData& Data = Context.Materials[Material];
-	if (!bAlphaTest || Part.bOpaque || (Data.Flags & MATERIAL_MASKED) == 0) { return {Program, ERTHitClass::Opaque}; }
+	if (!Part.bOpaque && IsTransmissive(Context, Data)) { return {Program, ERTHitClass::Masked}; }
+	if (!IsAlphaTested(Context, Part, Data)) { return {Program, ERTHitClass::Opaque}; }
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
 	const bool bPlain = Program == StandardProgram && HasPlainOpacity(Info, Data) && !Info.bStreams && !MayBePieces(Geometry, Part);
 	return {Program, bPlain ? ERTHitClass::MaskedPlain : ERTHitClass::Masked};
@@ -71,7 +80,11 @@ FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geom
 	}
 	else { AddTriangles(Geometry, Part, Data); }
 	Data.Material = MaterialIndex;
-	Data.Flags |= IsMasked(Class) ? SECTION_MASKED : 0u;
+	if (Class != ERTHitClass::Procedural)
+	{
+		Data.Flags |= IsAlphaTested(Context, Part, Material) ? SECTION_MASKED : 0u;
+		Data.Flags |= !Part.bOpaque && IsTransmissive(Context, Material) ? SECTION_TRANSMISSIVE : 0u;
+	}
 	Data.Flags |= Info.Sections[Part.Section].PieceCount > 0 ? SECTION_PIECES : 0u;
 	Data.Flags |= Part.bPieces ? SECTION_IS_PIECES : 0u;
 	Data.Flags |= Material.UVSets & (1u << TEXTURE_BASE_COLOR) ? SECTION_OPACITY_UV1 : 0u;

@@ -12,6 +12,11 @@ FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& 
 /// Material is that of the part's section.
 FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material);
 
+/// Returns whether light shines through the material.
+inline bool LightShinesThrough(const FMaterialData& Material) { return Material.Transmission > 0.0f && Material.Metallic < 1.0f; }
+/// As LightShinesThrough, under the context's override: none has such.
+bool IsTransmissive(const FSectionContext& Context, const FMaterialData& Material);
+
 /// Returns whether light sampling may list triangles of a section: those of the finest level of detail, once they are there. Coarser
 /// levels count other triangles.
 bool MayListEmissive(const FRTGeometry& Geometry, uint32_t Section);

@@ -178,7 +178,7 @@ bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialDat
 {
 	const auto Emits = [](const FMaterialData& Data) { return Data.EmissiveWeight > 0.0f || Data.Emissive != glm::vec3(0); };
 	const auto HasOwnLight = [](const FMaterialData& Data) { return Data.LightEmissive != Data.Emissive; };
-	return Old.Flags != New.Flags || Old.EmissiveWeight != New.EmissiveWeight || Emits(Old) != Emits(New) ||
+	return Old.Flags != New.Flags || LightShinesThrough(Old) != LightShinesThrough(New) || Old.EmissiveWeight != New.EmissiveWeight || Emits(Old) != Emits(New) ||
 	       HasOwnLight(Old) != HasOwnLight(New) || Old.UVSets != New.UVSets ||
 	       Old.UVTransform[TEXTURE_BASE_COLOR] != New.UVTransform[TEXTURE_BASE_COLOR] ||
 	       Old.UVOffset[TEXTURE_BASE_COLOR] != New.UVOffset[TEXTURE_BASE_COLOR] || MakeOpacityKey(Old) != MakeOpacityKey(New);
@@ -187,7 +187,7 @@ bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialDat
 bool FSectionTable::AffectsShape(const FMaterialData& Old, const FMaterialData& New)
 {
 	const bool bMasked = ((Old.Flags | New.Flags) & MATERIAL_MASKED) != 0;
-	return Old.Flags != New.Flags || (bMasked && MakeOpacityKey(Old) != MakeOpacityKey(New));
+	return Old.Flags != New.Flags || LightShinesThrough(Old) != LightShinesThrough(New) || (bMasked && MakeOpacityKey(Old) != MakeOpacityKey(New));
 }
 
 void FSectionTable::MaterialChanged(uint32_t Material)
@@ -269,17 +269,21 @@ void FSectionTable::FillPart(FSectionRangeId Id, uint32_t Part)
 void FSectionTable::UpdateFlags(FSectionRangeId Id)
 {
 	const FSectionRange& Range = Ranges[Id];
-	bool bMasked = false, bDoubleSided = true, bEmissive = false, bLightEmission = false;
+	bool bMasked = false, bDoubleSided = true, bEmissive = false, bLightEmission = false, bTransmissive = false;
 	for (const uint32_t Material : Range.Materials)
 	{
 		bDoubleSided &= (Context.Materials[Material].Flags & MATERIAL_DOUBLE_SIDED) != 0;
 		const FMaterialData& Data = Context.Materials[Material];
 		bEmissive |= Data.EmissiveWeight > 0.0f || Data.Emissive != glm::vec3(0);
 		bLightEmission |= Data.LightEmissive != Data.Emissive;
+		bTransmissive |= IsTransmissive(Context, Data);
 	}
 	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
-	for (uint32_t Part = 0; Part < Parts; ++Part) { bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0; }
-	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission});
+	for (uint32_t Part = 0; Part < Parts; ++Part)
+	{
+		bMasked |= (Table[Range.First + Part].Flags & (SECTION_MASKED | SECTION_TRANSMISSIVE)) != 0;
+	}
+	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission, bTransmissive});
 	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
 	{
 		RefutedGeometries.push_back(Range.Geometry->weak_from_this());
@@ -292,6 +296,7 @@ void FSectionTable::SetFlags(FSectionRangeId Id, const FRangeFlags& New)
 	if (Flags == New) { return; }
 	MaskedRangeCount += uint32_t(New.bMasked) - uint32_t(Flags.bMasked);
 	EmissiveRangeCount += uint32_t(New.bEmissive) - uint32_t(Flags.bEmissive);
+	TransmissiveRangeCount += uint32_t(New.bTransmissive) - uint32_t(Flags.bTransmissive);
 	LightEmissionRangeCount += uint32_t(New.bLightEmission) - uint32_t(Flags.bLightEmission);
 	Flags = New;
 	MarkRange(Id);

@@ -42,6 +42,7 @@ struct FInstanceBinding
 	uint64_t GeometryAddress = 0;     ///< 0: the geometry is not there (yet), and its objects are left out
 	uint32_t TableOffsetAndFlags = 0; ///< as in FRTInstance
 	uint32_t GeometrySlot = ~0u;      ///< the geometry whose priority rises while it is missing; ~0: none
+	uint32_t MaskBits = ~0u;          ///< what FRTInstance::CustomIndexAndMask keeps
 	friend bool operator==(const FInstanceBinding&, const FInstanceBinding&) = default;
 };
 

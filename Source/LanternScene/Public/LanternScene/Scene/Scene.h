@@ -51,6 +51,7 @@ struct FSceneFacts
 	/// Only its material program knows the shape of some surface: it is a box, or its alpha test is not the standard one.
 	bool bOwnShapes = false;
 	bool bEmissive = false;
+	bool bTransmissive = false;  ///< light shines through some material
 	bool bLightEmission = false; ///< some of it lights otherwise than it looks: FMaterialData::LightEmissive
 	bool bSun = false;
 	bool bSky = false;
@@ -159,6 +160,8 @@ public:
 	/// 0: the scene's materials; 1: each a Lambert of its base colour; 2: each a Lambert of 0.5, alpha tests off.
 	void SetMaterialOverride(uint32_t Override);
 	void SetAlphaTest(bool bEnabled);
+	/// Off: no light shines through any material.
+	void SetTransmission(bool bEnabled);
 	/// See FLightStore::SetCastingKinds.
 	void SetCastingLights(uint32_t Kinds);
 	/// Hides objects with a section of one of these programs from rays: the program's shaders are missing, and no stand-in is

@@ -38,6 +38,7 @@ public:
 	/// Override is as in FRTScene::SetMaterialOverride.
 	void SetOverride(uint32_t Override);
 	void SetAlphaTest(bool bEnabled);
+	void SetTransmission(bool bEnabled);
 
 	TGpuTable<FMaterialData>& GetTable() { return Table; }
 	const TGpuTable<FMaterialData>& GetTable() const { return Table; }

@@ -28,10 +28,11 @@ using FSectionRangeId = uint32_t;
 /// What of a range's sections counts for the whole.
 struct FRangeFlags
 {
-	bool bMasked = false;        ///< alpha tests run on some part
+	bool bMasked = false;        ///< any-hit shaders run on some part: alpha tests, or light shines through it
 	bool bDoubleSided = false;   ///< all materials are double-sided
 	bool bEmissive = false;      ///< some material emits
 	bool bLightEmission = false; ///< some material lights otherwise than it looks: FMaterialData::LightEmissive
+	bool bTransmissive = false;  ///< light shines through some material
 	friend bool operator==(const FRangeFlags&, const FRangeFlags&) = default;
 };
 
@@ -49,7 +50,7 @@ struct FSectionContext
 {
 	const TGpuTable<FMaterialData>& Materials;
 	const std::vector<uint32_t>& Programs; ///< by material; materials behind the end have StandardProgram
-	bool bAlphaTest = true;
+	bool bAlphaTest = true, bTransmission = true;
 	uint32_t Override = 0; ///< as FRTScene::SetMaterialOverride
 };
 
@@ -80,6 +81,7 @@ public:
 	uint32_t GetRangeCount() const { return RangeCount; } ///< in use
 	uint32_t GetMaskedRangeCount() const { return MaskedRangeCount; }
 	uint32_t GetLightEmissionRangeCount() const { return LightEmissionRangeCount; }
+	uint32_t GetTransmissiveRangeCount() const { return TransmissiveRangeCount; }
 	uint32_t GetEmissiveRangeCount() const { return EmissiveRangeCount; }
 
 	/// Returns the part of a range's surface that a section has, by its triangles: 0 to 1.
@@ -164,7 +166,7 @@ private:
 	std::deque<FRangeLinks> Links;
 	std::vector<FSectionRangeId> FreeIds;
 	std::vector<FSectionRangeId> Buckets; // a power of two
-	uint32_t RangeCount = 0, MaskedRangeCount = 0, EmissiveRangeCount = 0, LightEmissionRangeCount = 0;
+	uint32_t RangeCount = 0, MaskedRangeCount = 0, EmissiveRangeCount = 0, LightEmissionRangeCount = 0, TransmissiveRangeCount = 0;
 	std::deque<std::vector<FSectionRangeId>> RangesOfGeometry; // by its slot
 	std::vector<std::vector<FMaterialUse>> UsesOfMaterial;
 
