@@ -4,10 +4,11 @@
 // RADIANCE_CELLS: paths end where a radiance cell knows the light; the thread calls BeginRadianceLookUps first.
 // DEFERS_PATHS: paths also end where none does; bRadianceDeferred then says that what they bring is void.
 // KEEPS_HIT: what the first ray of a gathered path met is kept, behind mirrors as well. See FKeptHit.
+// ENDS_ON_SCREEN: paths end at surfaces that the frame's picture shows, see Transmission/Looks.glsl, which is included before.
 // NO_CAUSTICS: mirrors show no sun's disk to what they light. Few paths would find it, and each would be a bright blotch.
 // HAS_TRANSMISSION: light shines through some surfaces, see Transmission.glsl. Paths go on behind them, and rays to lights pass straight on.
 //   TINTED_SHADOWS: these rays take what such surfaces leave of the light, as the reference does. Else they pass as if there were none.
-//   LIKELIEST_PASSAGE: paths take the likelier side of a surface's inside, which has no noise.
+//   LIKELIEST_PASSAGE: paths take the likelier side of such surfaces, and cells of one size. Neither has noise, which no filter removes.
 // GUIDED_PATHS, SECOND_LOBE: see PathDirections.glsl. Gather then takes a white Lambert lobe alone.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
 // defined if the scene has such.
@@ -175,7 +176,7 @@ bool TakePassage(FSceneConstants Scene, FMaterialHit Hit, inout FPassages Passag
 	}
 	mat3 Basis = MakeBasis(BendNormal(Hit.Normal, -Direction));
 #ifdef LIKELIEST_PASSAGE
-	if ((Hit.Flags & HIT_INSIDE) != 0u) { U.z = 0.5; }
+	U.z = 0.5;
 #endif
 	FPassage Passage = SamplePassage(Hit, Basis, -Direction * Basis, U.xyz);
 	Throughput *= Passage.Weight;
@@ -254,6 +255,9 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		Throughput *= exp(-Passages.Absorption * (Hit.Distance < 0.0 ? Infinity : Hit.Distance));
 #endif
 		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
+#ifdef ENDS_ON_SCREEN
+		if (Hit.Transmission <= 0.0 && EndOnScreen(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Throughput)) { return Radiance; }
+#endif
 		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf);
 #ifdef HAS_TRANSMISSION
 		if (TakePassage(Scene, Hit, Passages, Origin, Direction, Throughput, Pdf, Random))
@@ -281,7 +285,12 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #else
 		const bool bLooksUp = true;
 #endif
-		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, NextRandom4(Random).x, Known)) { return Radiance + Throughput * Known; }
+#ifdef LIKELIEST_PASSAGE
+		const float LevelU = 0.5;
+#else
+		float LevelU = NextRandom4(Random).x;
+#endif
+		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, LevelU, Known)) { return Radiance + Throughput * Known; }
 		Throughput *= TakeRadianceRest();
 		if (Bounce >= MaxBounces || Throughput == vec3(0.0)) { return Radiance; }
 #ifdef DEFERS_PATHS

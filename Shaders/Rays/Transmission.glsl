@@ -77,7 +77,12 @@ FPassage SamplePassage(FMaterialHit Hit, mat3 Basis, vec3 V, vec3 U)
 {
 	FPassage Passage;
 	float Alpha = Hit.Roughness * Hit.Roughness;
-	bool bSmooth = Alpha < MinAlpha, bSolid = (Hit.Flags & HIT_SOLID) != 0u;
+#ifdef LIKELIEST_PASSAGE
+	const bool bSmooth = true; // what is rough spreads what it shows
+#else
+	bool bSmooth = Alpha < MinAlpha;
+#endif
+	bool bSolid = (Hit.Flags & HIT_SOLID) != 0u;
 	vec3 H = bSmooth ? vec3(0.0, 0.0, 1.0) : SampleVisibleNormal(V, Alpha, U.xy);
 	float Cosine = clamp(dot(V, H), 0.0, 1.0), Eta = EtaOf(Hit);
 	Passage.bThrough = U.z >= InterfaceReflectance(Hit, Cosine, Eta);

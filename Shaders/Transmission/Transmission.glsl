@@ -7,11 +7,41 @@
 
 #define LIKELIEST_PASSAGE
 #undef NO_CAUSTICS // the camera sees the sun in glass
+#define ENDS_ON_SCREEN
 #include "../Shared/TransmissionTypes.h"
-#include "../Rays/IndirectSampling.glsl"
-#include "Layers.glsl"
+#include "../Library/GBuffer.glsl"
+#include "../Library/UintTextures.glsl"
+#include "Looks.glsl"
 
 layout(push_constant, scalar) uniform FPush { FTransmissionConstants Push; };
+
+FLook Look;               // of the path that is followed; a weight of 0: it has ended elsewhere
+float LookDistance;       // by how far the place of Look is from where the path began
+vec3 PathStart;
+bool bAsksLook = false;   // whether paths may end on the screen
+
+// Ends a path at a point if the picture shows it, and returns whether it does.
+bool EndOnScreen(vec3 P, vec3 Normal, vec3 Throughput)
+{
+	const float DepthError = 0.005, LeastCosine = 0.9;
+	if (!bAsksLook) { return false; }
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	vec3 Relative = P - View.CameraPosition;
+	float Distance = dot(Relative, View.CameraForward);
+	if (Distance <= View.Near) { return false; }
+	vec2 Aside = vec2(dot(Relative, View.CameraRight), dot(Relative, View.CameraUp)) / (View.bOrthographic != 0u ? 1.0 : Distance);
+	vec2 At = (Aside - View.RayOffset) / View.RayScale, Size = vec2(View.Width, View.Height);
+	if (any(lessThan(At, vec2(0.5))) || any(greaterThan(At, Size - 0.5))) { return false; }
+	float Depth = LoadDepth(Push.Depth, ivec2(At));
+	if (Depth <= 0.0 || abs(DistanceFromDepth(View, Depth) - Distance) > DepthError * Distance) { return false; }
+	if (dot(LoadGBufferPoint(View, Push.Normals, ivec2(At), Depth).Ng, Normal) < LeastCosine) { return false; }
+	Look = FLook(At / Size, Throughput);
+	LookDistance = distance(P, PathStart);
+	return true;
+}
+
+#include "../Rays/IndirectSampling.glsl"
+#include "Layers.glsl"
 
 const float LeastShare = 1.0 / 256.0; // of what the camera sees, that is followed
 
@@ -22,29 +52,58 @@ void BeginLookUps(FViewConstants View, uvec2 Pixel)
 	FRadianceGrid Grid = FRadianceGridRef(Push.RadianceCells).Data;
 	FAddress Votes = VotesInTurn(View, Pixel) ? Grid.Votes : FAddress(0);
 	BeginRadianceLookUps(Push.RadianceCells, View, Votes, Push.FirstVoter + VoterOfPixel(View, Pixel), 2u, HashLookUps(View, Pixel));
-	RadianceNear = Grid.NearCells;
+	RadianceNear = 0.0; // nothing smooths what a path finds that goes on
 }
 #endif
 
-// Returns the radiance from a direction, of which the camera sees a share. Absorption: of the volume that the ray starts in.
+// Returns the radiance from a direction, without that of Look. Absorption: of the volume that the ray starts in.
 vec3 LookAlong(FSceneConstants Scene, vec3 Origin, vec3 Direction, vec3 Absorption, inout FRandom Random)
 {
 	FirstAbsorption = Absorption;
+	Look.Weight = vec3(0.0);
 	FMaterialHit Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, SHOWS_ALL);
 	vec3 L = FollowPath(Scene, Hit, Origin, Direction, uintBitsToFloat(0x7f800000u), 1.0, 1u, Push.MaxBounces, true, Random);
 	return mix(L, vec3(0.0), isnan(L));
 }
 
-// Returns what an interface sends to the camera along either of its sides. U.z chooses the side.
-vec3 FollowSide(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direction, vec3 U, inout FRandom Random)
+// Two looks of a pixel, and how far rough surfaces spread them.
+struct FLooks
 {
+	FLook Of[2];
+	float Spread[2];
+};
+
+// Returns the spread of what lies behind a surface. Bends: by how much of a microfacet's angle a ray is turned. Behind: distance from the
+// surface to what is seen. Before: from the camera.
+float SpreadOf(FViewConstants View, FMaterialHit Hit, float Bends, float Behind, float Before)
+{
+	float Alpha = Hit.Roughness * Hit.Roughness, Part = View.bOrthographic != 0u ? Behind : Behind / max(Behind + Before, 1.0e-6);
+	return Alpha < MinAlpha ? 0.0 : Bends * Alpha * Part / (abs(View.RayScale.y) * float(View.Height));
+}
+
+// Returns what an interface sends to the camera along either of its sides, times Weight. U.z chooses the side. OutLook: adds to it what the
+// picture shows, if it has none so far.
+vec3 FollowSide(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direction, vec3 Weight, vec3 U, inout FLook OutLook,
+                out float OutDistance, inout FRandom Random)
+{
+	OutDistance = 0.0;
 	mat3 Basis = MakeBasis(BendNormal(Hit.Normal, -Direction));
 	FPassage Passage = SamplePassage(Hit, Basis, -Direction * Basis, U);
 	if (Passage.Weight == vec3(0.0)) { return vec3(0.0); }
 	bool bInto = Passage.bThrough != ((Hit.Flags & HIT_INSIDE) != 0u);
 	vec3 From = OffsetRayOrigin(Origin + Direction * Hit.Distance, Passage.bThrough ? -Hit.GeometricNormal : Hit.GeometricNormal,
 	                            Scene.ObjectReach, Hit.Distance);
-	return Passage.Weight * LookAlong(Scene, From, Passage.Direction, bInto ? Hit.Absorption : vec3(0.0), Random);
+	Weight *= Passage.Weight;
+	bAsksLook = OutLook.Weight == vec3(0.0);
+	PathStart = From;
+	vec3 L = LookAlong(Scene, From, Passage.Direction, bInto ? Hit.Absorption : vec3(0.0), Random);
+	if (Look.Weight != vec3(0.0))
+	{
+		OutLook = FLook(Look.Place, Weight * Look.Weight);
+		OutDistance = LookDistance;
+	}
+	bAsksLook = false;
+	return Weight * L;
 }
 
 // What the base of a surface sends that is no interface: its colour, lit.
@@ -55,49 +114,79 @@ vec3 ShadeBase(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direct
 	return mix(L, vec3(0.0), isnan(L));
 }
 
-// Adds what one surface sends, and takes from Through what it keeps from passing. Returns whether the ray goes straight on.
-bool AddLayer(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direction, inout vec3 Light, inout vec3 Through, inout FRandom Random)
+// A ray from the camera, on its way through layers.
+struct FCameraRay
 {
-	float Share = InterfaceShare(Hit);
-	float Reflected = InterfaceReflectance(Hit, abs(dot(Hit.Normal, Direction)), EtaOf(Hit));
-	vec2 U = NextRandom4(Random).xy;
-	if (1.0 - Share > LeastShare) { Light += Through * (1.0 - Share) * ShadeBase(Scene, Hit, Origin, Direction, Random); }
-	else { Light += Through * Hit.Emissive; }
+	vec3 Origin, Direction; // of its last part
+	float Left, Length;     // up to what the G-buffer shows, and so far
+	vec2 Place;             // of its pixel, 0 to 1
+};
+
+// What the layers of a pixel send.
+struct FShown
+{
+	vec3 Light, Through;
+	FLooks Looks;
+};
+
+// Adds one layer, and takes from Through what it keeps from passing. Returns whether the ray goes straight on.
+bool AddLayer(FSceneConstants Scene, FViewConstants View, FMaterialHit Hit, FCameraRay Ray, inout FShown Shown, inout FRandom Random)
+{
+	float Share = InterfaceShare(Hit), Before = Ray.Length + Hit.Distance, Behind;
+	float Reflected = InterfaceReflectance(Hit, abs(dot(Hit.Normal, Ray.Direction)), EtaOf(Hit));
+	bool bSheet = (Hit.Flags & HIT_SOLID) == 0u, bSmooth = Hit.Roughness * Hit.Roughness < MinAlpha;
+	if (1.0 - Share > LeastShare) { Shown.Light += Shown.Through * (1.0 - Share) * ShadeBase(Scene, Hit, Ray.Origin, Ray.Direction, Random); }
+	else { Shown.Light += Shown.Through * Hit.Emissive; }
 	if (Share * Reflected > LeastShare)
 	{
-		Light += Through * (Share * Reflected) * FollowSide(Scene, Hit, Origin, Direction, vec3(U, 0.0), Random);
+		bool bFree = Shown.Looks.Of[0].Weight == vec3(0.0);
+		Shown.Light += FollowSide(Scene, Hit, Ray.Origin, Ray.Direction, Shown.Through * (Share * Reflected), vec3(0.0), Shown.Looks.Of[0], Behind, Random);
+		if (bFree) { Shown.Looks.Spread[0] = SpreadOf(View, Hit, 2.0, Behind, Before); }
 	}
-	bool bStraight = (Hit.Flags & HIT_SOLID) == 0u && Hit.Roughness * Hit.Roughness < MinAlpha;
-	if (!bStraight && Share * (1.0 - Reflected) > LeastShare)
+	vec3 Through = Shown.Through * (Share * (1.0 - Reflected));
+	Shown.Through = bSheet && bSmooth ? Through * Hit.BaseColor : vec3(0.0);
+	if (bSheet && bSmooth) { return MaxComponent(Shown.Through) > LeastShare; }
+	if (bSheet)
 	{
-		Light += Through * (Share * (1.0 - Reflected)) * FollowSide(Scene, Hit, Origin, Direction, vec3(U, 1.0), Random);
+		// The picture behind is spread, the sky as well.
+		Shown.Looks.Of[1] = FLook(Ray.Place, Through * Hit.BaseColor);
+		Shown.Looks.Spread[1] = SpreadOf(View, Hit, 2.0, min(Ray.Left - Hit.Distance, 1.0e6), Before);
+		return false;
 	}
-	Through *= bStraight ? Hit.BaseColor * (Share * (1.0 - Reflected)) : vec3(0.0);
-	return MaxComponent(Through) > LeastShare;
+	if (MaxComponent(Through) <= LeastShare) { return false; }
+	Shown.Light += FollowSide(Scene, Hit, Ray.Origin, Ray.Direction, Through, vec3(0.0, 0.0, 1.0), Shown.Looks.Of[1], Behind, Random);
+	Shown.Looks.Spread[1] = SpreadOf(View, Hit, 2.0 * abs(1.0 - 1.0 / IndexOf(Hit.F0)), Behind, Before);
+	return false;
 }
 
 void ShowLayers(uvec2 Pixel)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
-	vec3 Direction = CameraRay(View, vec2(Pixel) + 0.5), Origin = View.CameraPosition + CameraRayStart(View, vec2(Pixel) + 0.5);
+	vec2 At = vec2(Pixel) + 0.5;
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
-	float Left = Infinity;
-	if (Depth > 0.0) { Left = DistanceBefore(DistanceFromDepth(View, Depth) / dot(Direction, View.CameraForward)); }
+	FCameraRay Ray = FCameraRay(View.CameraPosition + CameraRayStart(View, At), CameraRay(View, At), Infinity, 0.0, At / vec2(View.Width, View.Height));
+	if (Depth > 0.0) { Ray.Left = DistanceBefore(DistanceFromDepth(View, Depth) / dot(Ray.Direction, View.CameraForward)); }
 	FRandom Random = MakeRandom(Pixel, View.FrameIndex, HashPcg(View.Seed + 0x7f4a7c15u));
-	vec3 Light = vec3(0.0), Through = vec3(1.0);
+	const FLook None = FLook(vec2(0.0), vec3(0.0));
+	FShown Shown = FShown(vec3(0.0), vec3(1.0), FLooks(FLook[2](None, None), float[2](0.0, 0.0)));
 	FMaterialHit Hit;
-	for (uint Layer = 0u; Layer < Push.MostLayers && FindLayer(Scene, Origin, Direction, Left, Hit); ++Layer)
+	for (uint Layer = 0u; Layer < Push.MostLayers; ++Layer)
 	{
+		float LeftBefore = Ray.Left;
+		if (!FindLayer(Scene, Ray.Origin, Ray.Direction, Ray.Left, Hit)) { break; }
+		Ray.Length += Depth > 0.0 ? LeftBefore - Ray.Left : 0.0; // backs that were passed
 #ifdef RADIANCE_CELLS
 		if (Layer == 0u) { BeginLookUps(View, Pixel); }
 #endif
-		if (!AddLayer(Scene, Hit, Origin, Direction, Light, Through, Random)) { break; }
-		Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
-		Left -= Hit.Distance;
+		if (!AddLayer(Scene, View, Hit, Ray, Shown, Random)) { break; }
+		Ray.Origin = OffsetRayOrigin(Ray.Origin + Ray.Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
+		Ray.Left -= Hit.Distance;
+		Ray.Length += Hit.Distance;
 	}
-	imageStore(Images[Push.Light], ivec2(Pixel), RoundToHalf(vec4(ClampToFinite(Light), 1.0)));
-	imageStore(Images[Push.Transmittance], ivec2(Pixel), vec4(Through, 1.0));
+	imageStore(Images[Push.Light], ivec2(Pixel), RoundToHalf(vec4(ClampToFinite(Shown.Light), PackSpread(Shown.Looks.Spread[0]))));
+	imageStore(Images[Push.Transmittance], ivec2(Pixel), vec4(Shown.Through, PackSpread(Shown.Looks.Spread[1])));
+	imageStore(UintImages[Push.Looks], ivec2(Pixel), uvec4(PackLook(Shown.Looks.Of[0]), PackLook(Shown.Looks.Of[1])));
 }
 
 #endif

@@ -184,6 +184,7 @@ FRTStatus FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameVi
 	FFrameOutputs Made;
 	Made.Fog = AddFogShadowPass(Context);
 	AddFogDepthPass(Context, GBuffer);
+	Made.Transmission = AddTransmissionPass(Context, GBuffer);
 	for (const FSignalInfo& Info : SignalInfos)
 	{
 		if (Context.Signals.Wanted.Has(Info.Signal)) { Made.Get(Info.Signal) = AddSignalPass(Context, Info.Signal, GBuffer); }
@@ -207,6 +208,12 @@ void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 		if (Made.Signals[I].IsValid()) { Handed.push_back({Made.Signals[I], &Outputs[I]}); }
 	}
 	if (Made.LightMask.IsValid()) { Handed.push_back({Made.LightMask.Visibility, &LightMask.Visibility}); }
+	if (Made.Transmission.IsValid())
+	{
+		Handed.push_back({Made.Transmission.Light, &Transmission.Light});
+		Handed.push_back({Made.Transmission.Transmittance, &Transmission.Transmittance});
+		Handed.push_back({Made.Transmission.Looks, &Transmission.Looks});
+	}
 	FFrameGraph& Graph = On->Renderer.GetContext().Graph;
 	for (const auto& [Texture, Held] : Handed) { Graph.AddUsage(Texture, ERTTextureUsage::CopySource); }
 	// Histories have that usage.
@@ -229,6 +236,7 @@ void FModuleRenderer::ReleaseOutputs()
 	Outputs.fill(nullptr);
 	Fog = {};
 	LightMask = {};
+	Transmission = {};
 }
 
 FRTStatus FModuleRenderer::ReadViews(const FRTModuleFrame& Frame, FFrameViews& Out) const
@@ -259,6 +267,7 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame, bool b
 	Features.Signals.bFog = Frame.bFog;
 	Features.Signals.FogPhase = Frame.FogPhase;
 	Features.Signals.bLightMask = Frame.bLightMask;
+	Features.Signals.bTransmission = Frame.bTransmission;
 	Features.bHostSurface = bHostSurface;
 	Features.bCameraMotion = Frame.Motion == nullptr;
 	Features.bHostShadow = Frame.HostShadow != nullptr;
@@ -373,6 +382,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
 	Out->Fog = MakeFog();
+	Out->Transmission = {Transmission.Light.Get(), Transmission.Transmittance.Get(), Transmission.Looks.Get()};
 	Out->LightMask = {LightMask.Visibility.Get(), LightMask.Lights.Get()};
 	if (GetFenceQueue(Ahead) == ERTQueue::Graphics) { Ahead = 0; } // one queue runs in order
 	Out->Wait = MakeWait();

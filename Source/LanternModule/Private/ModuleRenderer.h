@@ -151,7 +151,11 @@ private:
 	struct
 	{
 		TRTRef<IRTTexture> Visibility, Lights;
-	} LightMask;        ///< of the last frame
+	} LightMask; ///< of the last frame
+	struct
+	{
+		TRTRef<IRTTexture> Light, Transmittance, Looks;
+	} Transmission;     ///< of the last frame
 	FRTFence Ahead = 0; ///< what the recorded frame's submission waits for
 	uint32_t FrameIndex = 0;
 };

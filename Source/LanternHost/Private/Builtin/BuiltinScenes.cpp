@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "Builtin/Courtyard/Courtyard.h"
+#include "Builtin/GlassScene.h"
 #include "Builtin/Lamps.h"
 #include "Builtin/Stability/StabilityScenes.h"
 #include "Builtin/Tests/TestScenes.h"
@@ -47,6 +48,8 @@ constexpr FEntry Entries[] = {
         {{"COUNT", 640.0f, 0.0f, 10000.0f}}, [](const FValues& P) { return BuildLamps(uint32_t(P[0])); }},
     {{"toon", "STYLED=1", "two figures of a stylised look in a lane between painted walls; 0: without their styles"},
         {{"STYLED", 1.0f, 0.0f, 1.0f}}, [](const FValues& P) { return BuildToonScene(P[0] >= 0.5f); }},
+    {{"glass", "", "a room with a window, and what light shines through: solid, thin, tinted, frosted, and water"}, {},
+        [](const FValues&) { return BuildGlassScene(); }},
     {{"furnace", "ALBEDO=0.5", "closed room that emits 0.5; every pixel is 0.5/(1-albedo)"}, {{"ALBEDO", 0.5f, 0.0f, 0.99f}},
         [](const FValues& P) { return BuildFurnace(P[0]); }},
     {{"sphere", "ALBEDO=0.5", "inside of a diffuse sphere of 96 m^2 around 10,000 lm; irradiance 104.17/(1-albedo)"},

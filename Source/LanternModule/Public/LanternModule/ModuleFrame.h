@@ -234,6 +234,9 @@ struct FRTModuleFrame
 	/// The engine lights by itself and reads FRTModuleOutputs::LightMask. ESignal::LocalDiffuse and LocalSpecular then hold only what is not
 	/// in the mask. It needs no input but Depth and Normals. A first frame with it has none of the three until shaders are compiled.
 	bool bLightMask = false;
+	/// The engine reads FRTModuleOutputs::Transmission, and leaves objects with FRTModuleMaterial::Transmission out of its G-buffer. It needs
+	/// no input but Depth and Normals. A first frame with it has none until shaders are compiled.
+	bool bTransmission = false;
 	/// RenderFrame submits the scene's own work (copies, skinning, acceleration structures, records) by itself before it returns.
 	/// Tasks record it. Commands gets the passes over pixels alone, and is submitted later than that. The work runs on the device's
 	/// compute queue, beside the engine's G-buffer, if there is one and r.RT.Async names passes of it. The engine's submission then
@@ -301,6 +304,16 @@ struct FRTModuleLightMask
 	IRTTexture* Lights = nullptr;
 };
 
+/// Glass and water in front of the G-buffer's surfaces, for an engine that draws neither: picture = Light + Transmittance · picture + looks,
+/// once it is lit and before its fog. Rays find these surfaces; smooth sheets leave what is behind them as the engine has drawn it. Looks
+/// are other places of the engine's picture, that are seen by reflection or bent. Shaders/Transmission/Looks.glsl reads them.
+struct FRTModuleTransmission
+{
+	IRTTexture* Light = nullptr;         ///< RGBA16_FLOAT: radiance in nits that they send to the camera. Null: as in FRTModuleOutputs
+	IRTTexture* Transmittance = nullptr; ///< RGBA8_UNORM: share of what lies behind that they leave; 1 where there is none
+	IRTTexture* Looks = nullptr;         ///< RGBA32_UINT: two looks of two words each
+};
+
 /// Outputs of a frame. The renderer owns the textures; they are valid until its next RenderFrame. They are in ShaderRead. The
 /// engine may copy from them if it puts them back in ShaderRead.
 /// To read them, fetch the texel of the view's own pixel: the engine's pixel minus FRTModuleFrame::OffsetX and OffsetY. Or sample
@@ -315,6 +328,7 @@ struct FRTModuleOutputs
 	IRTTexture* Get(ESignal Signal) const { return Signals[ToIndex(Signal)]; }
 	FRTModuleFog Fog;             ///< with FRTModuleFrame::bFog
 	FRTModuleLightMask LightMask; ///< with FRTModuleFrame::bLightMask
+	FRTModuleTransmission Transmission; ///< with FRTModuleFrame::bTransmission
 	FRTModuleWait Wait;           ///< see FRTModuleFrame::bSubmitAhead
 	/// Whether all shaders of the frame are compiled. They compile in the background; RenderFrame never waits for them
 	/// (IRTModuleRenderer::Precache does, at load). An output is null until its first shaders are ready, and is not filtered

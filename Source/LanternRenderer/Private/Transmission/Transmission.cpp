@@ -41,19 +41,22 @@ FTransmission AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, cons
 	FTransmission Out;
 	Out.Light = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, "TransmissionLight");
 	Out.Transmittance = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "TransmissionTransmittance");
+	Out.Looks = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA32_UINT}, "TransmissionLooks");
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("Transmission", [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
+		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		ReadRadianceCells(Builder, Cells);
 		ReadLightCells(Builder, LightCells, true);
-		for (const FGraphTexture Texture : {Out.Light, Out.Transmittance}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
+		for (const FGraphTexture Texture : {Out.Light, Out.Transmittance, Out.Looks}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FTransmissionConstants C{};
 			C.Pass = Frame->Pass;
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
+			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 			C.Light = GetStorageIndex(Pass, Out.Light);
 			C.Transmittance = GetStorageIndex(Pass, Out.Transmittance);
+			C.Looks = GetStorageIndex(Pass, Out.Looks);
 			C.MostLayers = static_cast<uint32_t>(CVarLayers.GetOnRenderThread());
 			C.MaxBounces = BouncesWithoutCell;
 			C.FirstVoter = CountPathVoters(*Frame) + CountBlockVoters(*Frame);
@@ -109,7 +112,7 @@ FGraphTexture AddTransmissionComposite(FFrameContext& Context, FGraphTexture Lig
 	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA32_FLOAT}, "BehindGlass");
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("TransmissionComposite", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Texture : {Lighting, Transmission.Light, Transmission.Transmittance})
+		for (const FGraphTexture Texture : {Lighting, Transmission.Light, Transmission.Transmittance, Transmission.Looks})
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
@@ -120,6 +123,7 @@ FGraphTexture AddTransmissionComposite(FFrameContext& Context, FGraphTexture Lig
 			C.Lighting = GetSampledIndex(Pass, Lighting);
 			C.Light = GetSampledIndex(Pass, Transmission.Light);
 			C.Transmittance = GetSampledIndex(Pass, Transmission.Transmittance);
+			C.Looks = GetSampledIndex(Pass, Transmission.Looks);
 			C.Output = GetStorageIndex(Pass, Output);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};

@@ -67,7 +67,7 @@ FLightMask AddLightMaskPass(FFrameContext& Context, const FGBuffer& GBuffer);
 /// nobody asks for them, or shaders are being compiled, and they may stand in as opaque surfaces.
 bool IsTransmissionShown(const FFrameContext& Context);
 /// Adds what these surfaces show, and returns it; later calls of a frame return what the first one did. It is added before the signals of
-/// indirect light: its rays ask for radiance cells as well. Reads Depth of the G-buffer. Invalid: as IsTransmissionShown says.
+/// indirect light: its rays ask for radiance cells as well. Reads Depth and Normals of the G-buffer. Invalid: as IsTransmissionShown says.
 FTransmission AddTransmissionPass(FFrameContext& Context, const FGBuffer& GBuffer);
 
 /// Makes FGBuffer::Motion of a world that stands still, from depth alone, with w = 0.

@@ -204,11 +204,13 @@ struct FFogOfFrame
 	bool bAsked = false, bDepthAsked = false;
 };
 
-/// Surfaces in front of the G-buffer's that light shines through: Light + Transmittance · what the G-buffer's surface sends.
+/// Surfaces in front of the G-buffer's that light shines through: Light + Transmittance · what the G-buffer's surface sends, and what Looks
+/// names of other pixels' surfaces.
 struct FTransmission
 {
 	FGraphTexture Light;         ///< RGBA16_FLOAT: radiance that they send to the camera
 	FGraphTexture Transmittance; ///< RGBA8_UNORM: share of what lies behind that they leave
+	FGraphTexture Looks;         ///< RGBA32_UINT: what they show of other pixels (Shaders/Transmission/Looks.glsl)
 	bool IsValid() const { return Light.IsValid(); }
 };
 

@@ -29,6 +29,7 @@ void AddStone(const FCourtyard& Yard)
 	    {0.90f, 1.74f}, {0.84f, 1.74f}, {0.84f, 1.74f}, {0.60f, 1.58f}, {0.14f, 1.54f}, {0.14f, 1.54f}, {0.12f, 1.80f}, {0.09f, 2.00f},
 	    {0.13f, 2.08f}, {0.10f, 2.16f}, {0.0f, 2.18f}};
 	Mesh.AddLathe(Stem, 48);
+	Mesh.AddDisk({0, 0.2f, 0}, {0, 1, 0}, 1.67f, 64); // under the water
 	Yard.Builder.AddNode("fountain", Yard.Builder.AddMesh(Mesh), Place);
 }
 

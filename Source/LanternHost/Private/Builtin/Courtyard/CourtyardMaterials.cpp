@@ -206,13 +206,16 @@ int32_t AddWater(FSceneBuilder& Builder)
 	D.Metres = 1.6f;
 	D.Evaluate = [](const glm::vec2& P) {
 		FSurfacePoint S;
-		S.Albedo = {0.03f, 0.11f, 0.12f};
-		S.Roughness = 0.04f;
+		S.Albedo = {0.93f, 0.98f, 0.98f};
+		S.Roughness = 0.02f;
 		S.Height = 0.014f * SampleFractal(P, 5, 4, 0.45f, 81);
 		return S;
 	};
 	FHostMaterial Material = MakeSurfaceMaterial(Builder, D);
 	Material.Ior = 1.333f;
+	Material.Transmission = 1.0f;
+	Material.bSolid = true;
+	Material.Absorption = {1.8f, 0.5f, 0.4f}; // a little green
 	return Builder.AddMaterial(Material);
 }
 
