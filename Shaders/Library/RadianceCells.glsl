@@ -226,6 +226,13 @@ bool IsRadianceKnown(FRadianceGrid Grid, uint Slot, uint LeastCount, inout FCell
 	return true;
 }
 
+// Returns the coarsest level whose cells are no larger than the ray is long. A larger one may lie on both sides of a corner.
+uint CoarsestLevel(FRadianceQuery Query)
+{
+	float Fitting = max(log2(Query.RayLength / (1.7320508 * RADIANCE_CELL_FINEST)), 0.0);
+	return min(uint(Fitting), RADIANCE_CELL_LEVELS - 1u);
+}
+
 const uint FoundFine = 0u, FoundCoarse = 1u, FoundNone = 2u;
 
 // Returns what the light at a place is known by. U: a random number in [0, 1).
@@ -233,12 +240,11 @@ uint FindRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter
 {
 	OutLight = FCellLight(vec3(0.0), vec3(0.0));
 	if (!all(lessThan(abs(Query.Position), vec3(2.0e5)))) { return FoundNone; } // also of what is no number
-	// A cell that is larger than the ray is long may lie on both sides of a corner. The finest must do for rays that leave from a corner.
+	// The finest must do for rays that leave from a corner.
 	if (Query.RayLength < 0.25 * RADIANCE_CELL_FINEST) { return FoundNone; }
 	uint Wanted = RadianceLevel(Grid, Query.FromCamera, U);
 	if (Query.RayLength < Query.NearCells * RADIANCE_CELL_FINEST * exp2(float(Wanted))) { return FoundNone; }
-	float Fitting = max(log2(Query.RayLength / (1.7320508 * RADIANCE_CELL_FINEST)), 0.0);
-	uint Coarsest = min(uint(Fitting), RADIANCE_CELL_LEVELS - 1u), Level = min(Wanted, Coarsest);
+	uint Coarsest = CoarsestLevel(Query), Level = min(Wanted, Coarsest);
 	uint CoarseLevel = min(Level + RADIANCE_CELL_COARSER, Coarsest);
 	FRadianceVoter Nobody = FRadianceVoter(FAddress(0), 0u, 0u);
 	bool bForCoarse = CoarseLevel > Level && (Voter.Hash & 3u) == 0u; // the hash's other bits are the vote

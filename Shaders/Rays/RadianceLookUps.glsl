@@ -1,4 +1,5 @@
 // How paths end in radiance cells (RADIANCE_CELLS): what one thread's look-ups share.
+// SMOOTH_RADIANCE: cells are seen without a filter behind, and look-ups interpolate between them.
 #ifndef LANTERN_RADIANCE_LOOK_UPS_GLSL
 #define LANTERN_RADIANCE_LOOK_UPS_GLSL
 
@@ -69,6 +70,33 @@ vec3 ReflectCellLight(FCellLight Light, FBrdf Brdf, float Roughness, vec3 LocalV
 	return Light.Irradiance * Reflected;
 }
 
+#ifdef SMOOTH_RADIANCE
+// Looks up the four cells around a place, along the two axes that its surface faces least. Their borders would show else. InOutLight: of the
+// place's own cell, which counts where another is not known.
+void SmoothRadiance(FRadianceGrid Grid, FRadianceQuery Query, float U, inout FCellLight InOutLight)
+{
+	uint Level = min(RadianceLevel(Grid, Query.FromCamera, U), CoarsestLevel(Query));
+	int Steps = 1 << (RADIANCE_CELL_FINEST_SHIFT + Level);
+	float Size = RADIANCE_CELL_FINEST * exp2(float(Level));
+	vec3 N = abs(Query.GeometricNormal), Place = Query.Position;
+	int Facing = N.x > max(N.y, N.z) ? 0 : (N.y > N.z ? 1 : 2), A = (Facing + 1) % 3, B = (Facing + 2) % 3;
+	ivec3 InCell = ToRadianceSteps(Grid, Place) & (Steps - 1);
+	vec2 Part = fract(vec2(InCell[A], InCell[B]) / float(Steps) + 0.5);
+	FCellLight Sum = FCellLight(vec3(0.0), vec3(0.0));
+	for (int I = 0; I < 4; ++I)
+	{
+		vec2 Corner = vec2(I & 1, I >> 1), Weights = mix(1.0 - Part, Part, Corner);
+		Query.Position[A] = Place[A] + (Corner.x - 0.5) * Size;
+		Query.Position[B] = Place[B] + (Corner.y - 0.5) * Size;
+		FCellLight Light;
+		if (!LookUpRadiance(Grid, Query, FRadianceVoter(FAddress(0), 0u, 0u), U, Light)) { Light = InOutLight; }
+		Sum.Irradiance += Weights.x * Weights.y * Light.Irradiance;
+		Sum.From += Weights.x * Weights.y * Light.From;
+	}
+	InOutLight = Sum;
+}
+#endif
+
 // Returns whether the light that a hit reflects towards V is known: OutLight. P: where the next ray would start. Basis: about the shading
 // normal. LocalV: V in it. NearCells: see FRadianceQuery. Mirrors show what is there, and are followed.
 bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, float NearCells, float U, out vec3 OutLight)
@@ -82,6 +110,9 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 Loca
 	RadianceVoter.Note = FAddress(0);
 	FCellLight Light;
 	if (!LookUpRadiance(Grid, Query, Voter, U, Light)) { return false; }
+#ifdef SMOOTH_RADIANCE
+	SmoothRadiance(Grid, Query, U, Light);
+#endif
 	OutLight = ReflectCellLight(Light, Brdf, Hit.Roughness, LocalV, Light.From * Basis);
 	return true;
 }

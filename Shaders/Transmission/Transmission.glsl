@@ -8,6 +8,7 @@
 #define LIKELIEST_PASSAGE
 #undef NO_CAUSTICS // the camera sees the sun in glass
 #define ENDS_ON_SCREEN
+#define SMOOTH_RADIANCE
 #include "../Shared/TransmissionTypes.h"
 #include "../Library/GBuffer.glsl"
 #include "../Library/UintTextures.glsl"

@@ -19,7 +19,7 @@ void AddStone(const FCourtyard& Yard)
 {
 	FMeshBuilder Mesh("fountain");
 	Mesh.BeginSection(Yard.M.Trim);
-	const glm::vec2 Step[] = {{2.45f, 0}, {2.45f, 0.14f}, {2.45f, 0.14f}, {2.42f, 0.16f}, {2.0f, 0.16f}};
+	const glm::vec2 Step[] = {{2.45f, 0}, {2.45f, 0.14f}, {2.45f, 0.14f}, {2.42f, 0.16f}, {1.9f, 0.16f}};
 	Mesh.AddLathe(Step, 64);
 	const glm::vec2 Basin[] = {{1.95f, 0.16f}, {1.98f, 0.22f}, {1.88f, 0.28f}, {1.85f, 0.50f}, {1.90f, 0.58f}, {2.00f, 0.62f},
 	    {2.02f, 0.68f}, {1.98f, 0.72f}, {1.98f, 0.72f}, {1.70f, 0.72f}, {1.70f, 0.72f}, {1.66f, 0.66f}, {1.66f, 0.20f}};
