@@ -29,7 +29,8 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	bool bFront = dot(Ng, Place.Direction) < 0.0;
 	bool bCulledSide = !bFront && (Section.Flags & SECTION_DOUBLE_SIDED) == 0u;
 #ifdef HAS_TRANSMISSION
-	bool bSolid = Material.Transmission > 0.0 && (Material.Flags & MATERIAL_SOLID) != 0u;
+	bool bTransmissive = Material.Transmission > 0.0 && (Material.Metallic < 1.0 || HasTexture(Material, TEXTURE_METALLIC_ROUGHNESS));
+	bool bSolid = bTransmissive && (Material.Flags & MATERIAL_SOLID) != 0u;
 	bCulledSide = bCulledSide && !bSolid; // a camera in a solid sees its surface
 #endif
 	if (!bFront)
@@ -54,7 +55,8 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	Hit.Channels = LoadObjectChannels(Scene, Place.Object);
 	Hit.Object = Place.Object;
 #ifdef HAS_TRANSMISSION
-	Hit.Transmission = Material.Transmission > 0.0 ? Surface.Transmission : 0.0;
+	Hit.Transmission = bTransmissive ? Surface.Transmission : 0.0;
+	Hit.Flags |= bTransmissive ? HIT_TRANSMISSIVE : 0u;
 	Hit.Absorption = bSolid ? Material.Absorption : vec3(0.0);
 	Hit.Flags |= bSolid ? (bFront ? HIT_SOLID : HIT_SOLID | HIT_INSIDE) : 0u;
 #endif

@@ -1,4 +1,4 @@
-// The payload of material rays: 36 bytes hold all that shading needs, and who was hit. The quantisation is finer than the accuracy that the
+// The payload of material rays: 36 bytes, or 44 with HAS_TRANSMISSION, hold all that shading needs, and who was hit. The quantisation is finer than the accuracy that the
 // reference must reach. Base colours are unorm16, since a closed room of albedo 0.9 multiplies their error by ten. Emission
 // is fp16 (relative error ≤ 0.05 %), directions are octahedral.
 //   W0 distance                      W4 base colour b 15 | foliage 1 | roughness 12 | channels 4, the lower ones
@@ -6,7 +6,7 @@
 //   W2 geometric normal, octahedral  W6 emission rg fp16
 //   W3 base colour rg unorm16        W7 emission b fp16 | light-sampling weight fp16
 //                                    W8 object
-// HAS_TRANSMISSION: the upper 8 bits of W8, which no object needs, are inside 1 | solid 1. Two words are added.
+// HAS_TRANSMISSION: the upper 8 bits of W8, which no object needs, are inside 1 | solid 1 | transmissive 1. Two words are added.
 //   W9 absorption rg fp16            W10 absorption b fp16 | transmission unorm16
 // The four fp16 are never negative: their signs are the upper channels.
 #ifndef LANTERN_MATERIAL_PAYLOAD_GLSL
@@ -31,11 +31,12 @@ const float MaxEmission = 65504.0 / EmissionScale; // nits
 // What a ray sets W1 to before it is traced, if it looks for light: FMaterialData::LightEmissive. HAS_LIGHT_EMISSION only.
 #define ASKS_FOR_LIGHT 0x4c494748u
 
-#define HIT_CULLED_SIDE 1u // the back of a single-sided surface: camera rays do not see it
-#define HIT_CHARACTER 2u   // characters do not shadow the surface
-#define HIT_FOLIAGE 4u     // alpha-tested and seen from both sides
-#define HIT_INSIDE 8u      // the ray arrives from within a solid
-#define HIT_SOLID 16u      // the surface of a volume that light shines through
+#define HIT_CULLED_SIDE 1u  // the back of a single-sided surface: camera rays do not see it
+#define HIT_CHARACTER 2u    // characters do not shadow the surface
+#define HIT_FOLIAGE 4u      // alpha-tested and seen from both sides
+#define HIT_INSIDE 8u       // the ray arrives from within a solid
+#define HIT_SOLID 16u       // the surface of a volume that light shines through
+#define HIT_TRANSMISSIVE 32u // light shines through its material, if not through this place of it
 
 struct FMaterialHit
 {
@@ -75,7 +76,7 @@ FMaterialPayload PackHit(FMaterialHit Hit)
 	Payload.W7 = (packHalf2x16(vec2(Emission.b, Hit.EmissiveWeight)) & ~SignsOf(3u)) | SignsOf(Hit.Channels >> 6);
 	Payload.W8 = Hit.Object;
 #ifdef HAS_TRANSMISSION
-	Payload.W8 |= (Hit.Flags & (HIT_INSIDE | HIT_SOLID)) << 21;
+	Payload.W8 |= (Hit.Flags & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE)) << 21;
 	Payload.W9 = packHalf2x16(min(Hit.Absorption.rg, vec2(65504.0)));
 	Payload.W10 = (packHalf2x16(vec2(min(Hit.Absorption.b, 65504.0), 0.0)) & 0xffffu) | (uint(clamp(Hit.Transmission, 0.0, 1.0) * 65535.0 + 0.5) << 16);
 #endif
@@ -101,7 +102,7 @@ FMaterialHit UnpackHit(FMaterialPayload Payload)
 	Hit.EmissiveWeight = BlueAndWeight.y;
 #ifdef HAS_TRANSMISSION
 	Hit.Object = Payload.W8 & 0xffffffu;
-	Hit.Flags |= (Payload.W8 >> 21) & (HIT_INSIDE | HIT_SOLID);
+	Hit.Flags |= (Payload.W8 >> 21) & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE);
 	Hit.Transmission = float(Payload.W10 >> 16) / 65535.0;
 	Hit.Absorption = vec3(unpackHalf2x16(Payload.W9), unpackHalf2x16(Payload.W10).x);
 #else

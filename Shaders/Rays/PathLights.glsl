@@ -12,22 +12,29 @@
 #include "../Library/LightCells.glsl"
 #endif
 
-bool IsVisible(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
+// Returns the share of light that arrives along a ray, by luminance.
+float Transmittance(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
 {
 #ifdef RAY_QUERY
-	return QueryBlockerDistance(Scene, 0u, Casters, Origin, Direction, Distance) < 0.0;
+	return QueryTransmittance(Scene, 0u, Casters, Origin, Direction, Distance);
 #else
 	ShadowPayload.BlockerDistance = BlockedAtUnknownDistance;
 	traceRayEXT(Scenes[Scene.Tlas], gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, Casters, SHADOW_RAY,
 	            RAY_TYPES, SHADOW_MISS, Origin, 0.0, Direction, Distance, 1);
-	return IsVisible(ShadowPayload);
+	return GetTransmittance(ShadowPayload);
 #endif
 }
 
+// Whether most of the light arrives.
+bool IsVisible(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
+{
+	return Transmittance(Scene, Casters, Origin, Direction, Distance) > 0.5;
+}
+
 // Returns the part of a light's that arrives.
-#ifdef TINTED_SHADOWS
 vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
 {
+#ifdef TINTED_SHADOWS
 	vec3 T = vec3(1.0);
 	for (uint Layer = 0u; Layer < MostPassages; ++Layer)
 	{
@@ -40,13 +47,10 @@ vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Directi
 		Distance -= Hit.Distance;
 	}
 	return vec3(0.0);
-}
 #else
-vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
-{
-	return vec3(IsVisible(Scene, Casters, Origin, Direction, Distance) ? 1.0 : 0.0);
-}
+	return vec3(Transmittance(Scene, Casters, Origin, Direction, Distance));
 #endif
+}
 
 // Returns the density with which the BRDF's sampling finds what light sampling has found. Its rays see characters, which cast nothing on
 // a character's surface: light sampling alone counts there, and FollowPath leaves out what the rays find.

@@ -7,7 +7,7 @@
 // ENDS_ON_SCREEN: paths end at surfaces that the frame's picture shows, see Transmission/Looks.glsl, which is included before.
 // NO_CAUSTICS: mirrors show no sun's disk to what they light. Few paths would find it, and each would be a bright blotch.
 // HAS_TRANSMISSION: light shines through some surfaces, see Transmission.glsl. Paths go on behind them, and rays to lights pass straight on.
-//   TINTED_SHADOWS: these rays take what such surfaces leave of the light, as the reference does. Else they pass as if there were none.
+//   TINTED_SHADOWS: these rays take what such surfaces leave of the light, as the reference does. Else they take its luminance alone.
 //   LIKELIEST_PASSAGE: paths take the likelier side of such surfaces, and cells of one size. Neither has noise, which no filter removes.
 // GUIDED_PATHS, SECOND_LOBE: see PathDirections.glsl. Gather then takes a white Lambert lobe alone.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
@@ -120,8 +120,9 @@ vec3 ShadeMiss(FSceneConstants Scene, vec3 Direction, float Pdf, float NdotL, ui
 	return L;
 }
 
-// Returns the emission of a hit surface, weighted against next-event estimation. Pdf: with which Direction was sampled.
-vec3 ShadeEmission(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, float Pdf)
+// Returns the emission of a hit surface, weighted against next-event estimation. Pdf: with which Direction was sampled. Before: length of the
+// path from there to where its last part starts.
+vec3 ShadeEmission(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, float Pdf, float Before)
 {
 	if (MaxComponent(Hit.Emissive) <= 0.0) { return vec3(0.0); }
 	float CosAtLight = abs(dot(Hit.GeometricNormal, Direction));
@@ -129,7 +130,8 @@ vec3 ShadeEmission(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, floa
 #ifdef HAS_EMISSIVE
 	if (Hit.EmissiveWeight > 0.0)
 	{
-		LightPdf = EmissiveAreaPdf(Scene, Hit.EmissiveWeight) * Hit.Distance * Hit.Distance / max(CosAtLight, 1.0e-8);
+		float Distance = Before + Hit.Distance;
+		LightPdf = EmissiveAreaPdf(Scene, Hit.EmissiveWeight) * Distance * Distance / max(CosAtLight, 1.0e-8);
 	}
 #endif
 	return LightPdf > 0.0 ? Hit.Emissive * PowerHeuristic(Pdf, LightPdf) : Hit.Emissive;
@@ -153,38 +155,57 @@ struct FPassages
 {
 	vec3 Absorption; // of the volume that the path is in, 1/m
 	uint Left;       // surfaces that it may still meet
+	// Since it was last scattered, or reflected by such a surface:
+	float Length;        // of what it has passed
+	float EmissionShare; // of emitters that light sampling lists
+	uint Mask;           // of its rays
 };
 
 vec3 FirstAbsorption = vec3(0.0); // of the volume that the next path starts in. The thread may set it before
 
-FPassages StartPassages() { return FPassages(FirstAbsorption, MostPassages); }
+float FirstEmissionShare = 1.0; // FPassages::EmissionShare of paths that begin
 
-// Takes a path on if it meets an interface at Hit, and returns whether it does: else the surface reflects as others do, or the path ends with
-// a throughput of 0. Origin, Direction: of the ray that met Hit, and of the next one.
+FPassages StartPassages() { return FPassages(FirstAbsorption, MostPassages, 0.0, FirstEmissionShare, GatherMask); }
+
+void ScatterPassages(inout FPassages Passages)
+{
+	Passages.Length = 0.0;
+	Passages.EmissionShare = 1.0;
+	Passages.Mask = MASK_VISIBLE;
+}
+
+// Takes a path on if it meets an interface at Hit, and returns whether it does: else the surface reflects as others do. A path that ends here
+// has a throughput of 0. Origin, Direction: of the ray that met Hit, and of the next one, whose hit Hit becomes. bShown: see FollowPath.
 // A path that goes through keeps the density of its direction. Light sampling at the vertex before found lights straight behind; what bends
 // counts as if it did not. One that is reflected leads where light sampling finds nothing.
-bool TakePassage(FSceneConstants Scene, FMaterialHit Hit, inout FPassages Passages, inout vec3 Origin, inout vec3 Direction,
+bool TakePassage(FSceneConstants Scene, bool bShown, inout FMaterialHit Hit, inout FPassages Passages, inout vec3 Origin, inout vec3 Direction,
                  inout vec3 Throughput, inout float Pdf, inout FRandom Random)
 {
 	if (Hit.Transmission <= 0.0) { return false; }
 	vec4 U = NextRandom4(Random);
 	if (U.w >= InterfaceShare(Hit)) { return false; }
-	if (Passages.Left-- == 0u)
-	{
-		Throughput = vec3(0.0);
-		return true;
-	}
+	bool bInside = (Hit.Flags & HIT_INSIDE) != 0u;
+	// A path that has begun in the volume did not know of it.
+	if (bInside && Passages.Absorption == vec3(0.0)) { Throughput *= exp(-Hit.Absorption * Hit.Distance); }
 	mat3 Basis = MakeBasis(BendNormal(Hit.Normal, -Direction));
 #ifdef LIKELIEST_PASSAGE
 	U.z = 0.5;
 #endif
 	FPassage Passage = SamplePassage(Hit, Basis, -Direction * Basis, U.xyz);
-	Throughput *= Passage.Weight;
-	if (!Passage.bThrough) { Pdf = uintBitsToFloat(0x7f800000u); }
-	else if ((Hit.Flags & HIT_SOLID) != 0u) { Passages.Absorption = (Hit.Flags & HIT_INSIDE) != 0u ? vec3(0.0) : Hit.Absorption; }
+	Throughput *= Passages.Left-- > 0u ? Passage.Weight : vec3(0.0);
+	if (Throughput == vec3(0.0)) { return true; }
+	Passages.Length += Hit.Distance;
+	if (!Passage.bThrough)
+	{
+		Pdf = uintBitsToFloat(0x7f800000u);
+		ScatterPassages(Passages);
+	}
+	else if ((Hit.Flags & HIT_SOLID) != 0u) { Passages.Absorption = bInside ? vec3(0.0) : Hit.Absorption; }
 	vec3 Side = Passage.bThrough ? -Hit.GeometricNormal : Hit.GeometricNormal;
 	Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, Side, Scene.ObjectReach, Hit.Distance);
 	Direction = Passage.Direction;
+	Hit = TraceMaterial(Scene, Passages.Mask, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
+	if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= Passages.EmissionShare; }
 	return true;
 }
 #endif
@@ -258,12 +279,16 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #ifdef ENDS_ON_SCREEN
 		if (Hit.Transmission <= 0.0 && EndOnScreen(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Throughput)) { return Radiance; }
 #endif
-		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf);
 #ifdef HAS_TRANSMISSION
-		if (TakePassage(Scene, Hit, Passages, Origin, Direction, Throughput, Pdf, Random))
+		float Before = Passages.Length;
+#else
+		const float Before = 0.0;
+#endif
+		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf, Before);
+#ifdef HAS_TRANSMISSION
+		if (TakePassage(Scene, bShown, Hit, Passages, Origin, Direction, Throughput, Pdf, Random))
 		{
 			if (Throughput == vec3(0.0)) { return Radiance; }
-			Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 			--Bounce; // no scattering event
 			continue;
 		}
@@ -328,6 +353,9 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		}
 		Channels = Hit.Channels;
 		Origin = P;
+#ifdef HAS_TRANSMISSION
+		ScatterPassages(Passages);
+#endif
 		Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 #ifdef KEEPS_HIT
 		bMirrored = bMirrored && isinf(Sample.Pdf) && SpecularProbability(Brdf, LocalV) >= 1.0; // else the choice is chance
@@ -419,6 +447,9 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 		EmissionShare = bShown ? 1.0 : 0.0; // their mean is the share
 #endif
 		if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= EmissionShare; }
+#ifdef HAS_TRANSMISSION
+		FirstEmissionShare = EmissionShare; // also of what lies behind glass
+#endif
 #ifdef KEEPS_HIT
 		KeepHit(Hit, Direction, vec3(1.0), 0.0);
 #endif

@@ -24,6 +24,9 @@ FScreenProbeRay TraceProbeRay(FSceneConstants Scene, vec3 P, vec3 Direction, flo
 	}
 #ifdef EMISSIVE_IS_DIRECT
 	if (Hit.EmissiveWeight > 0.0) { Hit.Emissive = vec3(0.0); } // light sampling has found it
+#ifdef HAS_TRANSMISSION
+	FirstEmissionShare = 0.0; // also behind glass
+#endif
 #endif
 	const float Alone = 1.0 / 0.0; // pdf: nothing else finds what this ray finds
 	vec3 L = FollowPath(Scene, Hit, P, Direction, Alone, 1.0, 1u, MaxBounces, false, Random);

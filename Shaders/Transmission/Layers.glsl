@@ -11,7 +11,7 @@ bool FindLayer(FSceneConstants Scene, inout vec3 Origin, vec3 Direction, inout f
 	{
 		Hit = TraceMaterial(Scene, MASK_TRANSMISSIVE, Origin, Direction, Left, SHOWS_ALL);
 		if (Hit.Distance < 0.0) { return false; }
-		if ((Hit.Flags & HIT_CULLED_SIDE) == 0u) { return Hit.Transmission > 0.0; } // else the raster shows it
+		if ((Hit.Flags & HIT_CULLED_SIDE) == 0u) { return (Hit.Flags & HIT_TRANSMISSIVE) != 0u; } // else the raster shows it
 		Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
 		Left -= Hit.Distance;
 	}

@@ -1,6 +1,6 @@
 // What surfaces in front of the G-buffer's send to the camera, and what they leave of what lies behind: glass, and water. A ray from the
 // camera meets such objects alone. Smooth sheets are passed straight, so that what the raster shows behind them stays as it is. What bends
-// light, or scatters it, is followed by rays. Paths end in radiance cells where there are any, which have no noise.
+// light, or scatters it, is followed by rays. Paths end in radiance cells where there are any, which have little noise.
 // The ray-tracing pipeline and the ray-query path share it.
 #ifndef LANTERN_TRANSMISSION_PASS_GLSL
 #define LANTERN_TRANSMISSION_PASS_GLSL
@@ -111,6 +111,7 @@ vec3 FollowSide(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 vec3 ShadeBase(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direction, inout FRandom Random)
 {
 	Hit.Transmission = 0.0;
+	Hit.Emissive = vec3(0.0);
 	vec3 L = FollowPath(Scene, Hit, Origin, Direction, uintBitsToFloat(0x7f800000u), 1.0, 1u, max(Push.MaxBounces, 2u), true, Random);
 	return mix(L, vec3(0.0), isnan(L));
 }
@@ -136,8 +137,10 @@ bool AddLayer(FSceneConstants Scene, FViewConstants View, FMaterialHit Hit, FCam
 	float Share = InterfaceShare(Hit), Before = Ray.Length + Hit.Distance, Behind;
 	float Reflected = InterfaceReflectance(Hit, abs(dot(Hit.Normal, Ray.Direction)), EtaOf(Hit));
 	bool bSheet = (Hit.Flags & HIT_SOLID) == 0u, bSmooth = Hit.Roughness * Hit.Roughness < MinAlpha;
+	// A camera in the volume.
+	if ((Hit.Flags & HIT_INSIDE) != 0u) { Shown.Through *= exp(-Hit.Absorption * Hit.Distance); }
+	Shown.Light += Shown.Through * Hit.Emissive;
 	if (1.0 - Share > LeastShare) { Shown.Light += Shown.Through * (1.0 - Share) * ShadeBase(Scene, Hit, Ray.Origin, Ray.Direction, Random); }
-	else { Shown.Light += Shown.Through * Hit.Emissive; }
 	if (Share * Reflected > LeastShare)
 	{
 		bool bFree = Shown.Looks.Of[0].Weight == vec3(0.0);
@@ -168,6 +171,13 @@ void ShowLayers(uvec2 Pixel)
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	FCameraRay Ray = FCameraRay(View.CameraPosition + CameraRayStart(View, At), CameraRay(View, At), Infinity, 0.0, At / vec2(View.Width, View.Height));
 	if (Depth > 0.0) { Ray.Left = DistanceBefore(DistanceFromDepth(View, Depth) / dot(Ray.Direction, View.CameraForward)); }
+#ifdef RADIANCE_CELLS
+	if (Push.RadianceCells != FAddress(0) && VotesInTurn(View, Pixel))
+	{
+		FAddress Votes = FRadianceGridRef(Push.RadianceCells).Data.Votes;
+		FRadianceVoteRef(Votes).Data[Push.FirstVoter + VoterOfPixel(View, Pixel)].Slot = NO_RADIANCE_CELL;
+	}
+#endif
 	FRandom Random = MakeRandom(Pixel, View.FrameIndex, HashPcg(View.Seed + 0x7f4a7c15u));
 	const FLook None = FLook(vec2(0.0), vec3(0.0));
 	FShown Shown = FShown(vec3(0.0), vec3(1.0), FLooks(FLook[2](None, None), float[2](0.0, 0.0)));

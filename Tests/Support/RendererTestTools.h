@@ -28,6 +28,7 @@ struct FContent
 	bool bEmissive = false;
 	bool bSun = true;
 	bool bSky = false;
+	bool bGlass = false;
 };
 
 inline FHostMesh MakeQuad(const char* Name, int32_t Material, bool bSkinned)
@@ -68,6 +69,13 @@ inline FSceneDescription MakeDescription(const FContent& Content)
 		const int32_t Material = AddMaterial();
 		Scene.Materials[Material].AlphaMode = EAlphaMode::Mask;
 		AddQuad("Leaves", Material, false);
+	}
+	if (Content.bGlass)
+	{
+		const int32_t Material = AddMaterial();
+		Scene.Materials[Material].Transmission = 1.0f;
+		Scene.Materials[Material].Metallic = 0.0f;
+		AddQuad("Pane", Material, false);
 	}
 	if (Content.bEmissive)
 	{

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "HostMaterials.h"
 #include "LanternCore/Text/Log.h"
 #include "SkinningTypes.h"
 
@@ -191,8 +192,8 @@ uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Mat
 		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
 		const FHostMaterial& Material = Description.Materials[Materials[Section]];
 		const FDrawBatch Batch{Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Section,
-		    Material.AlphaMode != EAlphaMode::Opaque, Material.bDoubleSided,
-		    Material.Transmission > 0.0f && Material.Metallic < 1.0f, Scene.GetMaterialProgram(Materials[Section])};
+		    Material.AlphaMode != EAlphaMode::Opaque, Material.bDoubleSided, IsTransmissive(Material),
+		    Scene.GetMaterialProgram(Materials[Section])};
 		std::vector<uint32_t>& OfMesh = BatchesOfMesh[Mesh];
 		const auto Found = std::find_if(OfMesh.begin(), OfMesh.end(), [&](uint32_t Index) { return Batches[Index] == Batch; });
 		if (Found != OfMesh.end())

@@ -85,6 +85,8 @@ FShaderSource MakeQuerySource(const FSceneFacts& Facts, const std::string& Path,
 		Defines.emplace_back("HAS_MASKED", "1");
 		for (auto& Define : FAnyHitCounter::GetDefines()) { Defines.push_back(std::move(Define)); }
 	}
+	const bool bTold = std::any_of(Defines.begin(), Defines.end(), [](const auto& Define) { return Define.first == "HAS_TRANSMISSION"; });
+	if (!bTold) { AddTransmissionDefine(Facts, Defines); }
 	return MakeComputeSource(Path + ".comp", std::move(Defines));
 }
 

@@ -35,6 +35,7 @@ FRayType MakeShadowRay(const FSceneFacts& Facts, bool bBlockers)
 	Type.Miss = Shader("Rays/Shadow.rmiss");
 	Type.MaskedAnyHit = Shader("Rays/AlphaTest.rahit");
 	Type.MaskedAnyHit.Defines = FAnyHitCounter::GetDefines();
+	AddTransmissionDefine(Facts, Type.Miss.Defines);
 	AddTransmissionDefine(Facts, Type.MaskedAnyHit.Defines);
 	if (Facts.bTransmissive) { Type.MaskedAnyHit.Defines.emplace_back("TO_LIGHT", "1"); }
 	if (bBlockers)

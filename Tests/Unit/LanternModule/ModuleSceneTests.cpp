@@ -1,4 +1,5 @@
 // What an engine says of its scene, as shaders see it: materials with all their maps, vertices, indices, objects and lights.
+#include <cmath>
 #include <limits>
 
 #include "ModuleTestTools.h"
@@ -67,22 +68,28 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 	Material.Transmission = 0.125f;
 	Material.Emissive[0] = 100.0f;
 	Material.EmissiveMapMean[0] = 0.5f;
-	FRTModuleMap* const Maps[] = {
-	    &Material.BaseColorMap, &Material.MetallicRoughnessMap, &Material.NormalMap, &Material.OcclusionMap, &Material.EmissiveMap};
-	for (uint32_t Slot = 0; Slot < 5; ++Slot) { *Maps[Slot] = MakeMap(Slot % 2); }
+	Material.bSolid = true;
+	Material.AttenuationColor[1] = 0.5f;
+	Material.AttenuationDistance = 0.25f;
+	FRTModuleMap* const Maps[] = {&Material.BaseColorMap, &Material.MetallicRoughnessMap, &Material.NormalMap, &Material.OcclusionMap,
+	    &Material.EmissiveMap, &Material.TransmissionMap};
+	for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot) { *Maps[Slot] = MakeMap(Slot % 2); }
 	ERTMaterialHandle Handle = ERTMaterialHandle::None;
 	ASSERT_OK(Renderer->AddMaterial(Material, &Handle));
 	ASSERT_OK(AddObject(AddOpaqueMesh(), Handle));
 	const FSceneConstants Constants = ReadConstants(DescribeFrame());
 	const auto Data = ReadEntry<FMaterialData>(Constants.Materials, 2); // behind those of the fixture
-	for (uint32_t Slot = 0; Slot < 5; ++Slot)
+	for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot)
 	{
 		EXPECT_EQ(Data.Textures[Slot], Maps[Slot]->Texture->GetSampledIndex() | Maps[Slot]->Sampler->GetIndex() << TEXTURE_INDEX_BITS)
 		    << Slot;
 		EXPECT_EQ(Data.UVTransform[Slot], glm::vec4(float(Slot + 1), 0.5f, 0, 1)) << Slot;
 		EXPECT_EQ(Data.UVOffset[Slot], glm::vec2(0, -float(Slot + 1))) << Slot;
 	}
-	EXPECT_EQ(Data.UVSets, 0b01010u);
+	EXPECT_EQ(Data.UVSets, 0b101010u);
+	EXPECT_EQ(Data.Flags, MATERIAL_SOLID);
+	EXPECT_NEAR(Data.Absorption.y, std::log(2.0f) / 0.25f, 1e-5f);
+	EXPECT_EQ(Data.Absorption.x, 0.0f);
 	EXPECT_EQ(Data.NormalScale, 0.75f);
 	EXPECT_EQ(Data.OcclusionStrength, 0.25f);
 	EXPECT_EQ(Data.Ior, 1.33f);
@@ -140,6 +147,15 @@ TEST_F(FModuleSceneTest, WrongMapsAreNamed)
 	Material.Ior = 1.5f;
 	Material.Transmission = 1.5f;
 	EXPECT_REFUSED(Renderer->AddMaterial(Material, &Handle), "Transmission");
+	for (const float Bad : {0.0f, 1.5f, std::numeric_limits<float>::quiet_NaN()})
+	{
+		Material = {};
+		Material.AttenuationColor[1] = Bad;
+		EXPECT_REFUSED(Renderer->AddMaterial(Material, &Handle), "AttenuationColor");
+	}
+	Material = {};
+	Material.AttenuationDistance = 0.0f;
+	EXPECT_REFUSED(Renderer->AddMaterial(Material, &Handle), "AttenuationDistance");
 }
 
 TEST_F(FModuleSceneTest, VerticesCarryTangentsBothCoordinatesAndColours)

@@ -74,6 +74,37 @@ protected:
 	TRTRef<IRTTexture> Motion, BaseColor, Material;
 };
 
+TEST_F(FModuleSignalTest, GlassIsAnOutputOfItsOwn)
+{
+	FRTModuleFrame Frame = DescribeFrame();
+	Frame.Wanted = {};
+	Frame.bTransmission = true;
+	RenderUntilComplete(Frame);
+	EXPECT_EQ(Outputs.Transmission.Light, nullptr) << "light shines through nothing";
+	EXPECT_THAT(GetPasses(), Not(Contains(StartsWith("Transmission"))));
+	FRTModuleMaterial Glass;
+	Glass.Transmission = 1.0f;
+	ERTMaterialHandle Handle{};
+	ASSERT_OK(Renderer->AddMaterial(Glass, &Handle));
+	ASSERT_OK(AddObject(AddOpaqueMesh(), Handle));
+	RenderUntilComplete(Frame);
+	ASSERT_NE(Outputs.Transmission.Light, nullptr);
+	ASSERT_NE(Outputs.Transmission.Transmittance, nullptr);
+	ASSERT_NE(Outputs.Transmission.Looks, nullptr);
+	EXPECT_EQ(Outputs.Transmission.Light->GetDesc().Format, ERTFormat::RGBA16_FLOAT);
+	EXPECT_EQ(Outputs.Transmission.Transmittance->GetDesc().Format, ERTFormat::RGBA8_UNORM);
+	EXPECT_EQ(Outputs.Transmission.Looks->GetDesc().Format, ERTFormat::RGBA32_UINT);
+	EXPECT_EQ(Outputs.Transmission.Looks->GetDesc().Width, 64u);
+	Frame.bTransmission = false;
+	RenderUntilComplete(Frame);
+	EXPECT_EQ(Outputs.Transmission.Light, nullptr) << "nobody asks";
+	Frame.bTransmission = true;
+	Glass.Transmission = 0.0f;
+	ASSERT_OK(Renderer->SetMaterial(Handle, Glass));
+	RenderUntilComplete(Frame);
+	EXPECT_EQ(Outputs.Transmission.Light, nullptr) << "the glass has become opaque";
+}
+
 TEST_F(FModuleSignalTest, FogIsAnOutputOfItsOwn)
 {
 	FRTModuleFrame Frame = DescribeFrame();

@@ -317,6 +317,21 @@ TEST_F(FRendererLackTest, RadianceCellsAreThereForRoutesThatEndInThem)
 	EXPECT_FALSE(HasPart(Make(Empty), "RadianceCell")) << "without surfaces";
 }
 
+TEST_F(FRendererLackTest, GlassHasItsPassesAlone)
+{
+	FStage Glass, Off;
+	Glass.Content.bGlass = Off.Content.bGlass = true;
+	Off.Settings = {{"r.RT.Transmission", "0"}};
+	const FNames Made = Make(Glass), Opaque = Make(Off), None = Make({});
+	for (const char* Part : {"pass Transmission", "pass TransmissionComposite", "texture TransmissionLooks",
+	         "Transmission/Transmission.rgen", "Transmission/Composite.comp"})
+	{
+		EXPECT_TRUE(HasPart(Made, Part)) << Part;
+		EXPECT_FALSE(HasPart(Opaque, Part)) << "glass is opaque: " << Part;
+		EXPECT_FALSE(HasPart(None, Part)) << "light shines through nothing: " << Part;
+	}
+}
+
 TEST_F(FRendererLackTest, ReflectionsByPathsHaveTheirPassesAlone)
 {
 	FStage Off, BruteForce, Paths, Raw;

@@ -139,11 +139,12 @@ TEST_F(FGatherSceneTest, SmallObjectsLoseMaskBitsAndGoWithTheLast)
 	Info.Mask = MASK_SUN;
 	const FRTObjectId ShadowOnly = Scene->AddObject(Info);
 	ViewFrame(View);
-	EXPECT_EQ(MaskOf(Id), uint32_t(MaskDefault));
+	constexpr uint32_t Opaque = MaskDefault & ~MASK_TRANSMISSIVE; // no light shines through it
+	EXPECT_EQ(MaskOf(Id), Opaque);
 	EXPECT_EQ(MaskOf(ShadowOnly), uint32_t(MASK_SUN));
 	SetVariable("r.RT.Culling.Shadow.MinPixels", "24");
 	ViewFrame(View);
-	EXPECT_EQ(MaskOf(Id), uint32_t(MaskDefault & ~MaskCasters));
+	EXPECT_EQ(MaskOf(Id), Opaque & ~uint32_t(MaskCasters));
 	EXPECT_EQ(ByObject().count(ShadowOnly.Index), 0u);
 	SetVariable("r.RT.Culling.Visible.MinPixels", "24");
 	ViewFrame(View);

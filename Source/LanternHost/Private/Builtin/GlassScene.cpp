@@ -43,7 +43,8 @@ void AddPart(FSceneBuilder& Builder, const char* Name, int32_t Material, const g
 
 void AddTiles(FSceneBuilder& Builder)
 {
-	const int32_t Light = Builder.AddLambert("light tile", {0.7f, 0.66f, 0.58f}), Dark = Builder.AddLambert("dark tile", {0.16f, 0.2f, 0.24f});
+	const int32_t Light = Builder.AddLambert("light tile", {0.7f, 0.66f, 0.58f}),
+	              Dark = Builder.AddLambert("dark tile", {0.16f, 0.2f, 0.24f});
 	FMeshBuilder Tiles("tiles");
 	for (const bool bDark : {false, true})
 	{

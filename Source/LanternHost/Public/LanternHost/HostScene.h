@@ -52,7 +52,7 @@ public:
 		uint32_t FirstIndex = 0, IndexCount = 0;
 		uint32_t Section = 0; ///< index within the object
 		bool bMasked = false, bDoubleSided = false;
-		bool bTransmissive = false; ///< light shines through it
+		bool bTransmissive = false;          ///< light shines through it
 		uint32_t Program = StandardProgram;  ///< of the material when the scene was loaded
 		uint32_t FirstPlace = 0, Places = 0; ///< range in a list of all objects by batch
 		friend bool operator==(const FDrawBatch&, const FDrawBatch&) = default;

@@ -26,7 +26,7 @@ namespace Lantern
 
 /// Incremented when anything changes that an engine was compiled with: in this folder, LanternSignals/Signals.h or
 /// the RHI. The library refuses other versions. A new signal is no change: the arrays have room for MaxSignals.
-inline constexpr uint32_t ModuleVersion = 6;
+inline constexpr uint32_t ModuleVersion = 7;
 
 class IRTModuleVulkan;
 
@@ -122,7 +122,7 @@ struct FRTModuleMaterial
 	bool bLightEmissive = false;
 	FRTModuleMap TransmissionMap; ///< r
 	bool bSolid = false;          ///< with Transmission: the surface of a volume, which bends light. Else a thin sheet
-	/// Of what is solid: the colour that white light has after AttenuationDistance, 0–1 and > 0 (KHR_materials_volume).
+	/// The colour that white light has after AttenuationDistance in what is solid, 0–1 and > 0 (KHR_materials_volume).
 	float AttenuationColor[3] = {1, 1, 1};
 	float AttenuationDistance = 1.0f; ///< metres, > 0
 };

@@ -234,8 +234,9 @@ struct FRTModuleFrame
 	/// The engine lights by itself and reads FRTModuleOutputs::LightMask. ESignal::LocalDiffuse and LocalSpecular then hold only what is not
 	/// in the mask. It needs no input but Depth and Normals. A first frame with it has none of the three until shaders are compiled.
 	bool bLightMask = false;
-	/// The engine reads FRTModuleOutputs::Transmission, and leaves objects with FRTModuleMaterial::Transmission out of its G-buffer. It needs
-	/// no input but Depth and Normals. A first frame with it has none until shaders are compiled.
+	/// The engine reads FRTModuleOutputs::Transmission, and leaves sections with FRTModuleMaterial::Transmission out of its G-buffer. It needs
+	/// no input but Depth and Normals. A first frame with it has none until shaders are compiled, and r.RT.Transmission may be off: the
+	/// engine then draws these sections as it does without Lantern.
 	bool bTransmission = false;
 	/// RenderFrame submits the scene's own work (copies, skinning, acceleration structures, records) by itself before it returns.
 	/// Tasks record it. Commands gets the passes over pixels alone, and is submitted later than that. The work runs on the device's
@@ -304,8 +305,8 @@ struct FRTModuleLightMask
 	IRTTexture* Lights = nullptr;
 };
 
-/// Glass and water in front of the G-buffer's surfaces, for an engine that draws neither: picture = Light + Transmittance · picture + looks,
-/// once it is lit and before its fog. Rays find these surfaces; smooth sheets leave what is behind them as the engine has drawn it. Looks
+/// Glass and water in front of the G-buffer's surfaces, for an engine that draws neither. Picture = Light + Transmittance · picture + looks:
+/// once it is lit, and before its fog. Rays find these surfaces; smooth sheets leave what is behind them as the engine has drawn it. Looks
 /// are other places of the engine's picture, that are seen by reflection or bent. Shaders/Transmission/Looks.glsl reads them.
 struct FRTModuleTransmission
 {
@@ -326,10 +327,10 @@ struct FRTModuleOutputs
 	/// Textures by ESignal, which says what each holds. SignalInfos has their formats.
 	IRTTexture* Signals[MaxSignals] = {};
 	IRTTexture* Get(ESignal Signal) const { return Signals[ToIndex(Signal)]; }
-	FRTModuleFog Fog;             ///< with FRTModuleFrame::bFog
-	FRTModuleLightMask LightMask; ///< with FRTModuleFrame::bLightMask
+	FRTModuleFog Fog;                   ///< with FRTModuleFrame::bFog
+	FRTModuleLightMask LightMask;       ///< with FRTModuleFrame::bLightMask
 	FRTModuleTransmission Transmission; ///< with FRTModuleFrame::bTransmission
-	FRTModuleWait Wait;           ///< see FRTModuleFrame::bSubmitAhead
+	FRTModuleWait Wait;                 ///< see FRTModuleFrame::bSubmitAhead
 	/// Whether all shaders of the frame are compiled. They compile in the background; RenderFrame never waits for them
 	/// (IRTModuleRenderer::Precache does, at load). An output is null until its first shaders are ready, and is not filtered
 	/// until those of its filter are. Objects whose own shaders are missing then have the shadow of a stand-in, or none

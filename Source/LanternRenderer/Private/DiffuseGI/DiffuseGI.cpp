@@ -5,7 +5,7 @@
 
 #include "BruteForce/BruteForce.h"
 #include "Denoise/Denoise.h"
-#include "RadianceCells/MovedShare.h"
+#include "MovedShare/MovedShare.h"
 #include "RadianceCells/RadianceCells.h"
 #include "RadianceCells/RadianceCellsView.h"
 #include "Reflections/Reflections.h"

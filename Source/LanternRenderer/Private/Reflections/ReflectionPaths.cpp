@@ -7,7 +7,7 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
 #include "LocalLights/Emitters.h"
-#include "RadianceCells/MovedShare.h"
+#include "MovedShare/MovedShare.h"
 #include "RadianceCells/RadianceCells.h"
 #include "Rays/ThreadList.h"
 #include "ReflectionTypes.h"

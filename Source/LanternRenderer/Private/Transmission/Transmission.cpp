@@ -13,7 +13,8 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarLayers("r.RT.Transmission.Layers", 4,
-    "Most sheets of glass that a pixel shows one behind the other. Those behind are left out. What bends light ends the count: all behind it "
+    "Most sheets of glass that a pixel shows one behind the other. Those behind are left out. What bends light ends the count: all behind "
+    "it "
     "is traced.",
     {1, 16});
 TRTConsoleVariable<int32_t> CVarPath("r.RT.Transmission.Path", 0,
@@ -27,8 +28,8 @@ FShaderSource MakeCompositeSource() { return MakeComputeSource("Transmission/Com
 std::optional<FRayDispatch> FindDispatch(const FFrameContext& Context)
 {
 	const FPassRays Rays = ChooseTransmissionRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
-	return RequireRayDispatch(Context, Rays, Context.GetRayGen(EPassRayGen::Transmission),
-	    MakeQuerySource(Context.Facts, TransmissionShaders, Rays));
+	return RequireRayDispatch(
+	    Context, Rays, Context.GetRayGen(EPassRayGen::Transmission), MakeQuerySource(Context.Facts, TransmissionShaders, Rays));
 }
 
 FTransmission AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch)
@@ -89,7 +90,9 @@ FPassRays ChooseTransmissionRays(const FPassQuery& Query)
 bool IsTransmissionShown(const FFrameContext& Context)
 {
 	if (!Context.Facts.bTransmissive) { return false; }
-	return Context.GetRayGen(ESignal::Frame) != NoRayGen || FindDispatch(Context).has_value();
+	if (Context.GetRayGen(ESignal::Frame) != NoRayGen) { return true; }
+	const bool bComposed = Context.Signals.bNothingElse || RequireCompute(Context, MakeCompositeSource()) != nullptr;
+	return FindDispatch(Context).has_value() && bComposed;
 }
 
 FTransmission AddTransmissionPass(FFrameContext& Context, const FGBuffer& GBuffer)

@@ -3,6 +3,7 @@
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternScene/Opacity/OpacityClassifier.h"
+#include "ShaderTable/SectionData.h"
 
 namespace Lantern
 {
@@ -31,6 +32,7 @@ bool HasClassifiedMaterials(const FSectionContext& Context, const FRTGeometry& G
 		const uint32_t Program = Material < Context.Programs.size() ? Context.Programs[Material] : StandardProgram;
 		// The list of emissive triangles counts whole triangles.
 		const bool bEmissivePieces = Info.PieceCount > 0 && Context.Materials[Material].EmissiveWeight > 0.0f;
+		if (IsTransmissive(Context, Context.Materials[Material])) { return false; } // light shines through all of it
 		if (bEmissivePieces || MakeOpacityKey(Context.Materials[Material], Program) != Info.OpacityKey) { return false; }
 	}
 	return true;

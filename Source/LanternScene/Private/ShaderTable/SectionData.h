@@ -13,7 +13,10 @@ FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& 
 FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material);
 
 /// Returns whether light shines through the material.
-inline bool LightShinesThrough(const FMaterialData& Material) { return Material.Transmission > 0.0f && Material.Metallic < 1.0f; }
+inline bool LightShinesThrough(const FMaterialData& Material)
+{
+	return Material.Transmission > 0.0f && (Material.Metallic < 1.0f || Material.Textures[TEXTURE_METALLIC_ROUGHNESS] != NO_TEXTURE);
+}
 /// As LightShinesThrough, under the context's override: none has such.
 bool IsTransmissive(const FSectionContext& Context, const FMaterialData& Material);
 

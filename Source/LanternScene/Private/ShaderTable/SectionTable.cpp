@@ -178,8 +178,8 @@ bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialDat
 {
 	const auto Emits = [](const FMaterialData& Data) { return Data.EmissiveWeight > 0.0f || Data.Emissive != glm::vec3(0); };
 	const auto HasOwnLight = [](const FMaterialData& Data) { return Data.LightEmissive != Data.Emissive; };
-	return Old.Flags != New.Flags || LightShinesThrough(Old) != LightShinesThrough(New) || Old.EmissiveWeight != New.EmissiveWeight || Emits(Old) != Emits(New) ||
-	       HasOwnLight(Old) != HasOwnLight(New) || Old.UVSets != New.UVSets ||
+	return Old.Flags != New.Flags || LightShinesThrough(Old) != LightShinesThrough(New) || Old.EmissiveWeight != New.EmissiveWeight ||
+	       Emits(Old) != Emits(New) || HasOwnLight(Old) != HasOwnLight(New) || Old.UVSets != New.UVSets ||
 	       Old.UVTransform[TEXTURE_BASE_COLOR] != New.UVTransform[TEXTURE_BASE_COLOR] ||
 	       Old.UVOffset[TEXTURE_BASE_COLOR] != New.UVOffset[TEXTURE_BASE_COLOR] || MakeOpacityKey(Old) != MakeOpacityKey(New);
 }
@@ -187,7 +187,8 @@ bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialDat
 bool FSectionTable::AffectsShape(const FMaterialData& Old, const FMaterialData& New)
 {
 	const bool bMasked = ((Old.Flags | New.Flags) & MATERIAL_MASKED) != 0;
-	return Old.Flags != New.Flags || LightShinesThrough(Old) != LightShinesThrough(New) || (bMasked && MakeOpacityKey(Old) != MakeOpacityKey(New));
+	return Old.Flags != New.Flags || LightShinesThrough(Old) != LightShinesThrough(New) ||
+	       (bMasked && MakeOpacityKey(Old) != MakeOpacityKey(New));
 }
 
 void FSectionTable::MaterialChanged(uint32_t Material)
@@ -279,10 +280,7 @@ void FSectionTable::UpdateFlags(FSectionRangeId Id)
 		bTransmissive |= IsTransmissive(Context, Data);
 	}
 	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
-	for (uint32_t Part = 0; Part < Parts; ++Part)
-	{
-		bMasked |= (Table[Range.First + Part].Flags & (SECTION_MASKED | SECTION_TRANSMISSIVE)) != 0;
-	}
+	for (uint32_t Part = 0; Part < Parts; ++Part) { bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0; }
 	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission, bTransmissive});
 	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
 	{

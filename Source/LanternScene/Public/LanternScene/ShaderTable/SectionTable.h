@@ -28,7 +28,7 @@ using FSectionRangeId = uint32_t;
 /// What of a range's sections counts for the whole.
 struct FRangeFlags
 {
-	bool bMasked = false;        ///< any-hit shaders run on some part: alpha tests, or light shines through it
+	bool bMasked = false;        ///< alpha tests run on some part
 	bool bDoubleSided = false;   ///< all materials are double-sided
 	bool bEmissive = false;      ///< some material emits
 	bool bLightEmission = false; ///< some material lights otherwise than it looks: FMaterialData::LightEmissive

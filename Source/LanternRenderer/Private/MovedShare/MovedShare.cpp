@@ -1,5 +1,5 @@
 // The pass that finds where objects that move and lamps that change have changed the light.
-#include "RadianceCells/MovedShare.h"
+#include "MovedShare/MovedShare.h"
 
 #include "MovedShareTypes.h"
 #include "RadianceCells/RadianceCells.h"
@@ -12,7 +12,7 @@ namespace Lantern
 
 namespace
 {
-FShaderSource MakeSource() { return MakeComputeSource("RadianceCells/MovedShare.comp", {}); }
+FShaderSource MakeSource() { return MakeComputeSource("MovedShare/MovedShare.comp", {}); }
 } // namespace
 
 void ListMovedShareShaders(std::vector<FShaderSource>& Out)

@@ -1,4 +1,4 @@
-// Tells the filters of indirect light where objects that move have changed it (Shaders/RadianceCells/MovedShare.comp).
+// Tells the filters of indirect light where objects that move have changed it (Shaders/MovedShare/MovedShare.comp).
 #pragma once
 
 #include "LanternRenderer/Frame.h"

@@ -1,0 +1,44 @@
+// What the GPU counts in frames that have run, for whoever measures.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Lantern
+{
+
+/// Counts of alpha tests under rays, with r.RT.Opacity.Count. A frame's count arrives two frames later, or with WaitForAll.
+struct FAnyHitCounts
+{
+	uint64_t LastFrame = 0; ///< count of the newest frame that has arrived; modulo 2³²
+	uint64_t Total = 0;     ///< sum over all frames that have arrived
+	uint32_t Frames = 0;    ///< number of frames that have arrived
+};
+
+/// Counts of the shadow rays that queues really traced, with r.RT.Rays.Count. A frame's count arrives two frames later, or with
+/// WaitForAll.
+struct FRayCounts
+{
+	uint64_t LastFrame = 0;                               ///< count of the newest frame that has arrived
+	std::vector<std::pair<std::string, uint64_t>> Passes; ///< its parts, by the names of the passes that traced
+	uint64_t Total = 0;                                   ///< sum over all frames that have arrived
+	uint32_t Frames = 0;                                  ///< number of frames that have arrived
+};
+
+/// Counts of radiance cells in the newest frame that has arrived, with r.RT.GI.Cells.Count. A frame's counts arrive two frames later, or
+/// with WaitForAll.
+struct FRadianceCellCounts
+{
+	uint32_t Live = 0;    ///< cells in use
+	uint32_t Young = 0;   ///< of these, such as have had few updates and come before all others
+	uint32_t Updated = 0; ///< cells
+	uint32_t Full = 0;    ///< votes for a cell that found no room at its level
+	uint32_t Found = 0;   ///< look-ups that ended in the cell of their place
+	uint32_t Coarse = 0;  ///< that ended in a coarse one instead
+	uint32_t Missed = 0;  ///< that ended in none: the path went on
+	uint32_t Frames = 0;  ///< number of frames that have arrived
+};
+
+} // namespace Lantern
