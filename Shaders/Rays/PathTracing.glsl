@@ -154,6 +154,7 @@ FBrdf MakeBrdf(FMaterialHit Hit)
 struct FPassages
 {
 	vec3 Absorption; // of the volume that the path is in, 1/m
+	float Slope;     // cosine of the path's last part against the surface by which it has entered that
 	uint Left;       // surfaces that it may still meet
 	// Since it was last scattered, or reflected by such a surface:
 	float Length;        // of what it has passed
@@ -161,11 +162,13 @@ struct FPassages
 	uint Mask;           // of its rays
 };
 
-vec3 FirstAbsorption = vec3(0.0); // of the volume that the next path starts in. The thread may set it before
+// Of the volume that the next path starts in: FPassages::Absorption and Slope. The thread may set them before.
+vec3 FirstAbsorption = vec3(0.0);
+float FirstSlope = 0.0;
 
 float FirstEmissionShare = 1.0; // FPassages::EmissionShare of paths that begin
 
-FPassages StartPassages() { return FPassages(FirstAbsorption, MostPassages, 0.0, FirstEmissionShare, GatherMask); }
+FPassages StartPassages() { return FPassages(FirstAbsorption, FirstSlope, MostPassages, 0.0, FirstEmissionShare, GatherMask); }
 
 void ScatterPassages(inout FPassages Passages)
 {
@@ -200,7 +203,11 @@ bool TakePassage(FSceneConstants Scene, bool bShown, inout FMaterialHit Hit, ino
 		Pdf = uintBitsToFloat(0x7f800000u);
 		ScatterPassages(Passages);
 	}
-	else if ((Hit.Flags & HIT_SOLID) != 0u) { Passages.Absorption = bInside ? vec3(0.0) : Hit.Absorption; }
+	else if ((Hit.Flags & HIT_SOLID) != 0u) 
+	{
+		Passages.Absorption = bInside ? vec3(0.0) : Hit.Absorption;
+		Passages.Slope = abs(dot(Passage.Direction, Hit.GeometricNormal));
+	}
 	vec3 Side = Passage.bThrough ? -Hit.GeometricNormal : Hit.GeometricNormal;
 	Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, Side, Scene.ObjectReach, Hit.Distance);
 	Direction = Passage.Direction;
@@ -274,6 +281,10 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 	{
 #ifdef HAS_TRANSMISSION
 		Throughput *= exp(-Passages.Absorption * (Hit.Distance < 0.0 ? Infinity : Hit.Distance));
+#ifndef TINTED_SHADOWS
+		// What lies in a volume is lit through it, which no ray to a light tells: from straight above. What shines is not.
+		if (Hit.Distance > 0.0 && Hit.Transmission <= 0.0 && Hit.Emissive == vec3(0.0)) { Throughput *= exp(-Passages.Absorption * (Passages.Slope * Hit.Distance)); }
+#endif
 #endif
 		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
 #ifdef ENDS_ON_SCREEN
@@ -355,6 +366,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		Origin = P;
 #ifdef HAS_TRANSMISSION
 		ScatterPassages(Passages);
+		Passages.Slope = 0.0;
 #endif
 		Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 #ifdef KEEPS_HIT

@@ -57,16 +57,6 @@ void BeginLookUps(FViewConstants View, uvec2 Pixel)
 }
 #endif
 
-// Returns the radiance from a direction, without that of Look. Absorption: of the volume that the ray starts in.
-vec3 LookAlong(FSceneConstants Scene, vec3 Origin, vec3 Direction, vec3 Absorption, inout FRandom Random)
-{
-	FirstAbsorption = Absorption;
-	Look.Weight = vec3(0.0);
-	FMaterialHit Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, SHOWS_ALL);
-	vec3 L = FollowPath(Scene, Hit, Origin, Direction, uintBitsToFloat(0x7f800000u), 1.0, 1u, Push.MaxBounces, true, Random);
-	return mix(L, vec3(0.0), isnan(L));
-}
-
 // Two looks of a pixel, and how far rough surfaces spread them.
 struct FLooks
 {
@@ -80,40 +70,6 @@ float SpreadOf(FViewConstants View, FMaterialHit Hit, float Bends, float Behind,
 {
 	float Alpha = Hit.Roughness * Hit.Roughness, Part = View.bOrthographic != 0u ? Behind : Behind / max(Behind + Before, 1.0e-6);
 	return Alpha < MinAlpha ? 0.0 : Bends * Alpha * Part / (abs(View.RayScale.y) * float(View.Height));
-}
-
-// Returns what an interface sends to the camera along either of its sides, times Weight. U.z chooses the side. OutLook: adds to it what the
-// picture shows, if it has none so far.
-vec3 FollowSide(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direction, vec3 Weight, vec3 U, inout FLook OutLook,
-                out float OutDistance, inout FRandom Random)
-{
-	OutDistance = 0.0;
-	mat3 Basis = MakeBasis(BendNormal(Hit.Normal, -Direction));
-	FPassage Passage = SamplePassage(Hit, Basis, -Direction * Basis, U);
-	if (Passage.Weight == vec3(0.0)) { return vec3(0.0); }
-	bool bInto = Passage.bThrough != ((Hit.Flags & HIT_INSIDE) != 0u);
-	vec3 From = OffsetRayOrigin(Origin + Direction * Hit.Distance, Passage.bThrough ? -Hit.GeometricNormal : Hit.GeometricNormal,
-	                            Scene.ObjectReach, Hit.Distance);
-	Weight *= Passage.Weight;
-	bAsksLook = OutLook.Weight == vec3(0.0);
-	PathStart = From;
-	vec3 L = LookAlong(Scene, From, Passage.Direction, bInto ? Hit.Absorption : vec3(0.0), Random);
-	if (Look.Weight != vec3(0.0))
-	{
-		OutLook = FLook(Look.Place, Weight * Look.Weight);
-		OutDistance = LookDistance;
-	}
-	bAsksLook = false;
-	return Weight * L;
-}
-
-// What the base of a surface sends that is no interface: its colour, lit.
-vec3 ShadeBase(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direction, inout FRandom Random)
-{
-	Hit.Transmission = 0.0;
-	Hit.Emissive = vec3(0.0);
-	vec3 L = FollowPath(Scene, Hit, Origin, Direction, uintBitsToFloat(0x7f800000u), 1.0, 1u, max(Push.MaxBounces, 2u), true, Random);
-	return mix(L, vec3(0.0), isnan(L));
 }
 
 // A ray from the camera, on its way through layers.
@@ -131,36 +87,81 @@ struct FShown
 	FLooks Looks;
 };
 
+// Parts of what a surface sends to the camera, each of which a path finds.
+const uint FromBase = 0u, FromReflection = 1u, FromBehind = 2u, Parts = 3u;
+
+// Returns the radiance of a part, without that of Look. OutWeight: of it.
+vec3 FollowPart(FSceneConstants Scene, uint Part, FMaterialHit Hit, FCameraRay Ray, out vec3 OutWeight, inout FRandom Random)
+{
+	Look.Weight = OutWeight = vec3(0.0);
+	FMaterialHit Next = Hit;
+	vec3 Origin = Ray.Origin, Direction = Ray.Direction;
+	FirstAbsorption = vec3(0.0);
+	if (Part == FromBase)
+	{
+		OutWeight = vec3(1.0);
+		Next.Transmission = 0.0;
+		Next.Emissive = vec3(0.0);
+	}
+	else
+	{
+		mat3 Basis = MakeBasis(BendNormal(Hit.Normal, -Direction));
+		FPassage Passage = SamplePassage(Hit, Basis, -Direction * Basis, vec3(0.0, 0.0, Part == FromBehind ? 1.0 : 0.0));
+		OutWeight = Passage.Weight;
+		if (OutWeight == vec3(0.0)) { return vec3(0.0); }
+		vec3 Side = Passage.bThrough ? -Hit.GeometricNormal : Hit.GeometricNormal;
+		Origin = PathStart = OffsetRayOrigin(Origin + Direction * Hit.Distance, Side, Scene.ObjectReach, Hit.Distance);
+		Direction = Passage.Direction;
+		FirstAbsorption = Passage.bThrough != ((Hit.Flags & HIT_INSIDE) != 0u) ? Hit.Absorption : vec3(0.0);
+		FirstSlope = abs(dot(Direction, Hit.GeometricNormal));
+		Next = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, SHOWS_ALL);
+	}
+	vec3 L = FollowPath(Scene, Next, Origin, Direction, uintBitsToFloat(0x7f800000u), 1.0, 1u, Push.MaxBounces, true, Random);
+	return mix(L, vec3(0.0), isnan(L));
+}
+
+// Adds what a part sends to Shown.Light, or a look. Weight: of what the camera sees.
+void AddPart(FSceneConstants Scene, FViewConstants View, uint Part, vec3 Weight, FMaterialHit Hit, FCameraRay Ray, inout FShown Shown,
+             inout FRandom Random)
+{
+	uint Place = Part == FromBehind ? 1u : 0u;
+	bAsksLook = Part != FromBase && Shown.Looks.Of[Place].Weight == vec3(0.0);
+	vec3 Passed;
+	vec3 L = FollowPart(Scene, Part, Hit, Ray, Passed, Random);
+	Shown.Light += Weight * Passed * L;
+	if (Look.Weight != vec3(0.0))
+	{
+		float Bends = Part == FromBehind ? 2.0 * abs(1.0 - 1.0 / IndexOf(Hit.F0)) : 2.0;
+		Shown.Looks.Of[Place] = FLook(Look.Place, Weight * Passed * Look.Weight);
+		Shown.Looks.Spread[Place] = SpreadOf(View, Hit, Bends, LookDistance, Ray.Length + Hit.Distance);
+	}
+	bAsksLook = false;
+}
+
 // Adds one layer, and takes from Through what it keeps from passing. Returns whether the ray goes straight on.
 bool AddLayer(FSceneConstants Scene, FViewConstants View, FMaterialHit Hit, FCameraRay Ray, inout FShown Shown, inout FRandom Random)
 {
-	float Share = InterfaceShare(Hit), Before = Ray.Length + Hit.Distance, Behind;
-	float Reflected = InterfaceReflectance(Hit, abs(dot(Hit.Normal, Ray.Direction)), EtaOf(Hit));
+	float Share = InterfaceShare(Hit), Reflected = InterfaceReflectance(Hit, abs(dot(Hit.Normal, Ray.Direction)), EtaOf(Hit));
 	bool bSheet = (Hit.Flags & HIT_SOLID) == 0u, bSmooth = Hit.Roughness * Hit.Roughness < MinAlpha;
 	// A camera in the volume.
 	if ((Hit.Flags & HIT_INSIDE) != 0u) { Shown.Through *= exp(-Hit.Absorption * Hit.Distance); }
 	Shown.Light += Shown.Through * Hit.Emissive;
-	if (1.0 - Share > LeastShare) { Shown.Light += Shown.Through * (1.0 - Share) * ShadeBase(Scene, Hit, Ray.Origin, Ray.Direction, Random); }
-	if (Share * Reflected > LeastShare)
+	// One loop: paths are much code.
+	vec3 Weights = vec3(1.0 - Share, Share * Reflected, bSheet ? 0.0 : Share * (1.0 - Reflected));
+	for (uint Part = 0u; Part < Parts; ++Part)
 	{
-		bool bFree = Shown.Looks.Of[0].Weight == vec3(0.0);
-		Shown.Light += FollowSide(Scene, Hit, Ray.Origin, Ray.Direction, Shown.Through * (Share * Reflected), vec3(0.0), Shown.Looks.Of[0], Behind, Random);
-		if (bFree) { Shown.Looks.Spread[0] = SpreadOf(View, Hit, 2.0, Behind, Before); }
+		vec3 Weight = Shown.Through * Weights[Part];
+		if (MaxComponent(Weight) > LeastShare) { AddPart(Scene, View, Part, Weight, Hit, Ray, Shown, Random); }
 	}
-	vec3 Through = Shown.Through * (Share * (1.0 - Reflected));
-	Shown.Through = bSheet && bSmooth ? Through * Hit.BaseColor : vec3(0.0);
-	if (bSheet && bSmooth) { return MaxComponent(Shown.Through) > LeastShare; }
-	if (bSheet)
+	vec3 Behind = Shown.Through * Hit.BaseColor * (Share * (1.0 - Reflected));
+	Shown.Through = bSheet && bSmooth ? Behind : vec3(0.0);
+	if (bSheet && !bSmooth)
 	{
 		// The picture behind is spread, the sky as well.
-		Shown.Looks.Of[1] = FLook(Ray.Place, Through * Hit.BaseColor);
-		Shown.Looks.Spread[1] = SpreadOf(View, Hit, 2.0, min(Ray.Left - Hit.Distance, 1.0e6), Before);
-		return false;
+		Shown.Looks.Of[1] = FLook(Ray.Place, Behind);
+		Shown.Looks.Spread[1] = SpreadOf(View, Hit, 2.0, min(Ray.Left - Hit.Distance, 1.0e6), Ray.Length + Hit.Distance);
 	}
-	if (MaxComponent(Through) <= LeastShare) { return false; }
-	Shown.Light += FollowSide(Scene, Hit, Ray.Origin, Ray.Direction, Through, vec3(0.0, 0.0, 1.0), Shown.Looks.Of[1], Behind, Random);
-	Shown.Looks.Spread[1] = SpreadOf(View, Hit, 2.0 * abs(1.0 - 1.0 / IndexOf(Hit.F0)), Behind, Before);
-	return false;
+	return MaxComponent(Shown.Through) > LeastShare;
 }
 
 void ShowLayers(uvec2 Pixel)
