@@ -199,6 +199,11 @@ int main(int ArgumentCount, char** Arguments)
 	}
 	catch (const std::exception& Error)
 	{
+		if (std::ferror(stdout)) // the text was longer than its buffer
+		{
+			LogError("standard output cannot be written");
+			return ExitBadInput;
+		}
 		LogError("{}", EscapeText(Error.what()));
 	}
 	return ExitCheckFailed;

@@ -170,9 +170,20 @@ float FirstEmissionShare = 1.0; // FPassages::EmissionShare of paths that begin
 
 FPassages StartPassages() { return FPassages(FirstAbsorption, FirstSlope, MostPassages, 0.0, FirstEmissionShare, GatherMask); }
 
+// Returns what the volume that a path is in leaves of what it meets next.
+vec3 LeftByVolume(FPassages Passages, FMaterialHit Hit)
+{
+	float Length = Hit.Distance < 0.0 ? Infinity : Hit.Distance;
+#ifndef TINTED_SHADOWS
+	// What lies in a volume is lit through it, which no ray to a light tells: from straight above. What shines is not.
+	if (Hit.Transmission <= 0.0 && Hit.Emissive == vec3(0.0)) { Length *= 1.0 + Passages.Slope; }
+#endif
+	return exp(-Passages.Absorption * Length);
+}
+
 void ScatterPassages(inout FPassages Passages)
 {
-	Passages.Length = 0.0;
+	Passages.Length = Passages.Slope = 0.0;
 	Passages.EmissionShare = 1.0;
 	Passages.Mask = MASK_VISIBLE;
 }
@@ -263,6 +274,22 @@ vec3 ChooseShown(vec3 Share, float U, out bool bShown)
 	return bShown ? Share / Chance : (vec3(1.0) - Share) / max(1.0 - Chance, 1.0e-6);
 }
 
+#ifdef HAS_TRANSMISSION
+#define LENGTH_PASSED Passages.Length
+#else
+#define LENGTH_PASSED 0.0
+#endif
+
+// Returns a number that chooses the size of a radiance cell.
+float ChooseLevel(inout FRandom Random)
+{
+#ifdef LIKELIEST_PASSAGE
+	return 0.5;
+#else
+	return NextRandom4(Random).x;
+#endif
+}
+
 // Returns the radiance that arrives along a ray traced from Origin to Hit. Pdf and NdotL belong to its direction at the vertex
 // that it left; they weigh it against the next-event estimation there. Bounce: how often the path was scattered before. bShown: whether
 // only mirrors have scattered it.
@@ -280,22 +307,13 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 	for (;; ++Bounce)
 	{
 #ifdef HAS_TRANSMISSION
-		Throughput *= exp(-Passages.Absorption * (Hit.Distance < 0.0 ? Infinity : Hit.Distance));
-#ifndef TINTED_SHADOWS
-		// What lies in a volume is lit through it, which no ray to a light tells: from straight above. What shines is not.
-		if (Hit.Distance > 0.0 && Hit.Transmission <= 0.0 && Hit.Emissive == vec3(0.0)) { Throughput *= exp(-Passages.Absorption * (Passages.Slope * Hit.Distance)); }
-#endif
+		Throughput *= LeftByVolume(Passages, Hit);
 #endif
 		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
 #ifdef ENDS_ON_SCREEN
 		if (Hit.Transmission <= 0.0 && EndOnScreen(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Throughput)) { return Radiance; }
 #endif
-#ifdef HAS_TRANSMISSION
-		float Before = Passages.Length;
-#else
-		const float Before = 0.0;
-#endif
-		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf, Before);
+		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf, LENGTH_PASSED);
 #ifdef HAS_TRANSMISSION
 		if (TakePassage(Scene, bShown, Hit, Passages, Origin, Direction, Throughput, Pdf, Random))
 		{
@@ -321,12 +339,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #else
 		const bool bLooksUp = true;
 #endif
-#ifdef LIKELIEST_PASSAGE
-		const float LevelU = 0.5;
-#else
-		float LevelU = NextRandom4(Random).x;
-#endif
-		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, LevelU, Known)) { return Radiance + Throughput * Known; }
+		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, ChooseLevel(Random), Known)) { return Radiance + Throughput * Known; }
 		Throughput *= TakeRadianceRest();
 		if (Bounce >= MaxBounces || Throughput == vec3(0.0)) { return Radiance; }
 #ifdef DEFERS_PATHS
@@ -366,7 +379,6 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		Origin = P;
 #ifdef HAS_TRANSMISSION
 		ScatterPassages(Passages);
-		Passages.Slope = 0.0;
 #endif
 		Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 #ifdef KEEPS_HIT

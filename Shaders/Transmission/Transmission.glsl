@@ -5,6 +5,9 @@
 #ifndef LANTERN_TRANSMISSION_PASS_GLSL
 #define LANTERN_TRANSMISSION_PASS_GLSL
 
+#ifndef HAS_TRANSMISSION
+#define HAS_TRANSMISSION
+#endif
 #define LIKELIEST_PASSAGE
 #undef NO_CAUSTICS // the camera sees the sun in glass
 #define ENDS_ON_SCREEN

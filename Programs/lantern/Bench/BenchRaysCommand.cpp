@@ -68,7 +68,7 @@ int MeasureScene(
 		return Status;
 	}
 	// The hand-written dispatch takes hits as the driver gives them, and its table has no record but those of shadow rays.
-	for (const char* const Name : {"r.RT.GI", "r.RT.Reflections"})
+	for (const char* const Name : {"r.RT.GI", "r.RT.Reflections", "r.RT.Transmission"})
 	{
 		FConsoleVariables::Get().Set(Name, "0", ERTSetBy::CommandLine, "bench rays");
 	}

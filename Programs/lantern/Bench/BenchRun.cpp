@@ -43,7 +43,10 @@ namespace
 /// Benchmarks are of parts. Indirect light, which the project's defaults turn on, would be beside each; --quality and --set may.
 void LeaveOutIndirectLight()
 {
-	for (const char* const Name : {"r.RT.GI", "r.RT.Reflections"}) { FConsoleVariables::Get().Set(Name, "0", ERTSetBy::Ini, "bench"); }
+	for (const char* const Name : {"r.RT.GI", "r.RT.Reflections", "r.RT.Transmission"})
+	{
+		FConsoleVariables::Get().Set(Name, "0", ERTSetBy::Ini, "bench");
+	}
 }
 } // namespace
 

@@ -65,7 +65,7 @@ const std::map<std::string, ERTShaderStage>& GetRayStages()
 	return Stages;
 }
 
-FShaderSource MakeSource(const std::string& Path)
+FShaderSource MakeSource(const std::string& Path, bool bTransmission = false)
 {
 	FShaderSource Source{Path, GetRayStages().at(fs::path(Path).extension().string()), {}, {}};
 	for (const char* Index : {"SHADOW_RAY", "SHADOW_MISS"}) { Source.Defines.emplace_back(Index, "0"); }
@@ -76,14 +76,15 @@ FShaderSource MakeSource(const std::string& Path)
 		Source.Defines.emplace_back(Fact, "1");
 	}
 	Source.Defines.emplace_back("RAY_TYPES", "2");
+	if (bTransmission) { Source.Defines.emplace_back("HAS_TRANSMISSION", "1"); }
 	return Source;
 }
 
-std::multiset<uint32_t> MeasurePayloads(const std::string& Path)
+std::multiset<uint32_t> MeasurePayloads(const std::string& Path, bool bTransmission = false)
 {
 	FShaderCompiler Compiler(FShaderCompilerDesc{{LANTERN_SOURCE_DIR "/Shaders"}, ""});
 	FShaderBinary Binary;
-	const FRTStatus Status = Compiler.Compile(MakeSource(Path), Binary);
+	const FRTStatus Status = Compiler.Compile(MakeSource(Path, bTransmission), Binary);
 	EXPECT_TRUE(Status) << Path << ": " << Status.Message;
 	return FSpirvTypes(Binary.Words).GetPayloads();
 }
@@ -102,6 +103,15 @@ TEST(RayPayload, MaterialRayIsThirtySixBytes)
 	EXPECT_EQ(MeasurePayloads("Rays/Material.rchit"), FSizes{36});
 }
 
+/// In scenes that light shines through something of.
+TEST(RayPayload, MaterialRayIsFortyFourBytesWithGlass)
+{
+	EXPECT_EQ(MeasurePayloads("Rays/Material.rmiss", true), FSizes{44});
+	EXPECT_EQ(MeasurePayloads("Rays/Material.rchit", true), FSizes{44});
+	EXPECT_EQ(MeasurePayloads("Reference/PathTrace.rgen", true), FSizes{44}) << "its shadows have tints, by material rays";
+	EXPECT_EQ(MeasurePayloads("Rays/Shadow.rmiss", true), FSizes{4});
+}
+
 TEST(RayPayload, ReferenceTracesThoseTwo) { EXPECT_EQ(MeasurePayloads("Reference/PathTrace.rgen"), (FSizes{4, 36})); }
 
 TEST(RayPayload, AlphaTestTouchesNone) { EXPECT_EQ(MeasurePayloads("Rays/AlphaTest.rahit"), FSizes{}); }
@@ -118,7 +128,7 @@ TEST(RayPayload, NoShaderHasALargerOne)
 		const std::string Path = fs::relative(Entry.path(), Root).string();
 		for (const uint32_t Bytes : MeasurePayloads(Path))
 		{
-			EXPECT_LE(Bytes, 36u) << Path;
+			EXPECT_LE(Bytes, Path.starts_with("Transmission/") ? 44u : 36u) << Path;
 			EXPECT_GT(Bytes, 0u) << Path << ": a type that this test does not know";
 		}
 	}

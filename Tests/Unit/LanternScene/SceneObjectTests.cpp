@@ -190,7 +190,7 @@ TEST_F(FSceneObjectTest, FlagsAndMasksReachTheInstances)
 	EXPECT_EQ(GetFlags(Find(Masked)), 0u);
 	EXPECT_EQ(GetFlags(Find(Solid)), uint32_t(InstanceForceOpaque));
 	EXPECT_EQ(Find(Masked).Instance.CustomIndexAndMask >> 24, uint32_t(MaskVisible));
-	EXPECT_EQ(Find(Solid).Instance.CustomIndexAndMask >> 24, uint32_t(MaskDefault));
+	EXPECT_EQ(Find(Solid).Instance.CustomIndexAndMask >> 24, uint32_t(MaskDefault & ~MASK_TRANSMISSIVE));
 	EXPECT_EQ(Read<FObjectData>(Scene->GetConstants().Objects, Masked.Index).Flags, OBJECT_MIRRORED);
 	EXPECT_EQ(Read<FObjectData>(Scene->GetConstants().Objects, Solid.Index).Flags, 0u);
 	// Each way of making the leaves solid, and back.

@@ -235,8 +235,8 @@ struct FRTModuleFrame
 	/// in the mask. It needs no input but Depth and Normals. A first frame with it has none of the three until shaders are compiled.
 	bool bLightMask = false;
 	/// The engine reads FRTModuleOutputs::Transmission, and leaves sections with FRTModuleMaterial::Transmission out of its G-buffer. It needs
-	/// no input but Depth and Normals. A first frame with it has none until shaders are compiled, and r.RT.Transmission may be off: the
-	/// engine then draws these sections as it does without Lantern.
+	/// no input but Depth and Normals. A first frame with it has none until shaders are compiled, and r.RT.Transmission may be off.
+	/// The engine then draws these sections as it does without Lantern.
 	bool bTransmission = false;
 	/// RenderFrame submits the scene's own work (copies, skinning, acceleration structures, records) by itself before it returns.
 	/// Tasks record it. Commands gets the passes over pixels alone, and is submitted later than that. The work runs on the device's

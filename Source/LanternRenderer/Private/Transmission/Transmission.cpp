@@ -74,7 +74,7 @@ FTransmission AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, cons
 FPassRays ChooseTransmissionRays(const FPassQuery& Query)
 {
 	FPassRays Rays;
-	const bool bAny = Query.Requests.bTransmission && Query.Facts.bTransmissive && IsRayTracingEnabled();
+	const bool bAny = Query.Requests.bTransmission && Query.Facts.bTransmissive && IsRayTracingEnabled() && HasAnyLight(Query.Facts);
 	if (bAny) { Rays.Path = ChooseShadingRayPath(Query, CVarPath, "surfaces that light shines through are"); }
 	if (Rays.Path == ERayPath::None) { return Rays; }
 	Rays.Defines = MakePathDefines(Query.Facts);

@@ -48,8 +48,8 @@ struct FSceneFacts
 	uint32_t EmissiveTriangles = 0;
 	uint32_t EmissiveClusters = 0; ///< that they are divided into: FEmissiveCluster
 	bool bMasked = false;          ///< some object has an alpha-tested material (and r.RT.AlphaTest is on)
-	/// Only its material program knows the shape of some surface: it is a box, its alpha test is not the standard one, or light shines
-	/// through it.
+	/// Only its material program knows the shape of some surface. It is a box, or its alpha test is not the standard one. So is what light
+	/// shines through, if it has a program.
 	bool bOwnShapes = false;
 	bool bEmissive = false;
 	bool bTransmissive = false;  ///< light shines through some material
