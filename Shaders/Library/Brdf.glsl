@@ -30,6 +30,16 @@ float SchlickWeight(float CosTheta)
 
 float DielectricFresnel(FBrdf Brdf, float VdotH) { return Brdf.Specular * mix(Brdf.F0, 1.0, SchlickWeight(VdotH)); }
 
+// Returns what a thin sheet reflects, with all that goes to and fro within it. R: of each of its interfaces.
+float SheetReflectance(float R)
+{
+#ifdef ONE_INTERFACE // r.RT.Debug.Transmission.Sheet
+	return R;
+#else
+	return 2.0 * R / (1.0 + R);
+#endif
+}
+
 // Returns the Fresnel reflectance of the whole specular lobe, metal and dielectric.
 vec3 SpecularFresnel(FBrdf Brdf, float VdotH)
 {

@@ -17,7 +17,7 @@ float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primiti
 	FMaterialInputs Inputs = FetchMaterialInputs(Section, Primitive, Barycentrics);
 	float Cosine = abs(dot(Normal, Direction)) * inversesqrt(max(dot(Normal, Normal) * dot(Direction, Direction), 1.0e-30));
 	float Ratio = (Material.Ior - 1.0) / (Material.Ior + 1.0), R = Material.Specular * mix(Ratio * Ratio, 1.0, SchlickWeight(Cosine));
-	if ((Material.Flags & MATERIAL_SOLID) == 0u) { R = 2.0 * R / (1.0 + R); } // a sheet, as InterfaceReflectance has it
+	if ((Material.Flags & MATERIAL_SOLID) == 0u) { R = SheetReflectance(R); }
 	float Share = EvaluateTransmission(Material, Inputs) * (1.0 - Material.Metallic) * (1.0 - R);
 	return -log(max(Share * Luminance(EvaluateBaseColor(Material, Inputs).rgb), Least));
 }

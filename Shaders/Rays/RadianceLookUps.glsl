@@ -26,6 +26,14 @@ void BeginRadianceLookUps(FAddress Grid, FViewConstants View, FAddress Votes, ui
 	RadianceVoter = FRadianceVoter(Votes != FAddress(0) ? Votes + FAddress(Number) * FAddress(VoteBytes) : FAddress(0), Rank, Hash);
 }
 
+// For rays that leave from what a pixel shows, of which each 2×2 pixels have a voter from FirstVoter on. Grid may be 0.
+void BeginPixelLookUps(FAddress Grid, FViewConstants View, uvec2 Pixel, uint FirstVoter)
+{
+	if (Grid == FAddress(0)) { return; }
+	FAddress Votes = VotesInTurn(View, Pixel) ? FRadianceGridRef(Grid).Data.Votes : FAddress(0);
+	BeginRadianceLookUps(Grid, View, Votes, FirstVoter + VoterOfPixel(View, Pixel), 2u, HashLookUps(View, Pixel));
+}
+
 // Lets only some pixels follow paths that have met no cell, and weighs what they find.
 void ChooseRadianceRest(uvec2 Pixel, FViewConstants View)
 {

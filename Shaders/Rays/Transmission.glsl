@@ -23,11 +23,7 @@ float InterfaceReflectance(FMaterialHit Hit, float Cosine, float Eta)
 {
 	if ((Hit.Flags & HIT_SOLID) == 0u)
 	{
-		float R = Hit.Specular * mix(Hit.F0, 1.0, SchlickWeight(Cosine));
-#ifdef ONE_INTERFACE // r.RT.Debug.Transmission.Sheet
-		return R;
-#endif
-		return 2.0 * R / (1.0 + R);
+		return SheetReflectance(Hit.Specular * mix(Hit.F0, 1.0, SchlickWeight(Cosine)));
 	}
 	float SineSquared = Eta * Eta * (1.0 - Cosine * Cosine); // of the angle behind
 	if (SineSquared >= 1.0) { return 1.0; }

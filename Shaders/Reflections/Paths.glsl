@@ -18,17 +18,6 @@ float EmissionRoughness; // the thread sets it before
 layout(push_constant, scalar) uniform FPush { FReflectionPathConstants Push; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FReflectionHitRef { FReflectionHit Data[]; };
 
-#ifdef RADIANCE_CELLS
-void BeginLookUps(FViewConstants View, uvec2 Pixel)
-{
-	if (Push.RadianceCells == FAddress(0)) { return; }
-	FRadianceGrid Grid = FRadianceGridRef(Push.RadianceCells).Data;
-	FAddress Votes = VotesInTurn(View, Pixel) ? Grid.Votes : FAddress(0);
-	BeginRadianceLookUps(Push.RadianceCells, View, Votes, Push.FirstVoter + VoterOfPixel(View, Pixel), 2u, HashLookUps(View, Pixel));
-	RadianceNear = Grid.NearCells;
-}
-#endif
-
 // Number: of the launch's thread.
 void ReflectPixel(uint Number)
 {
@@ -46,7 +35,8 @@ void ReflectPixel(uint Number)
 	bKeepsEmission = bMirror;
 	EmissionRoughness = Push.EmissionRoughness;
 #ifdef RADIANCE_CELLS
-	BeginLookUps(View, uvec2(Pixel));
+	BeginPixelLookUps(Push.RadianceCells, View, uvec2(Pixel), Push.FirstVoter);
+	if (Push.RadianceCells != FAddress(0)) { RadianceNear = FRadianceGridRef(Push.RadianceCells).Data.NearCells; }
 #endif
 	vec3 Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, Lobe, Push.SamplesPerPixel, Push.MaxBounces, 0x9e3779b9u);
 	float NdotV = dot(Point.BentN, Point.V);

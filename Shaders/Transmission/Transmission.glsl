@@ -49,17 +49,6 @@ bool EndOnScreen(vec3 P, vec3 Normal, vec3 Throughput)
 
 const float LeastShare = 1.0 / 256.0; // of what the camera sees, that is followed
 
-#ifdef RADIANCE_CELLS
-void BeginLookUps(FViewConstants View, uvec2 Pixel)
-{
-	if (Push.RadianceCells == FAddress(0)) { return; }
-	FRadianceGrid Grid = FRadianceGridRef(Push.RadianceCells).Data;
-	FAddress Votes = VotesInTurn(View, Pixel) ? Grid.Votes : FAddress(0);
-	BeginRadianceLookUps(Push.RadianceCells, View, Votes, Push.FirstVoter + VoterOfPixel(View, Pixel), 2u, HashLookUps(View, Pixel));
-	RadianceNear = 0.0; // nothing smooths what a path finds that goes on
-}
-#endif
-
 // Two looks of a pixel, and how far rough surfaces spread them.
 struct FLooks
 {
@@ -192,7 +181,8 @@ void ShowLayers(uvec2 Pixel)
 		if (!FindLayer(Scene, Ray.Origin, Ray.Direction, Ray.Left, Hit)) { break; }
 		Ray.Length += Depth > 0.0 ? LeftBefore - Ray.Left : 0.0; // backs that were passed
 #ifdef RADIANCE_CELLS
-		if (Layer == 0u) { BeginLookUps(View, Pixel); }
+		// RadianceNear stays 0: nothing smooths what a path finds that goes on.
+		if (Layer == 0u) { BeginPixelLookUps(Push.RadianceCells, View, Pixel, Push.FirstVoter); }
 #endif
 		if (!AddLayer(Scene, View, Hit, Ray, Shown, Random)) { break; }
 		Ray.Origin = OffsetRayOrigin(Ray.Origin + Ray.Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
