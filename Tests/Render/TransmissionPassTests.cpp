@@ -3,31 +3,14 @@
 
 #include "LanternImage/Metrics.h"
 #include "Support/RenderFixture.h"
-#include "Support/TestScene.h"
+#include "TransmissionFixture.h"
 
 namespace Lantern
 {
 
 namespace
 {
-constexpr double R = 0.04; // of ior 1.5
-
-FHostMaterial MakeGlass(bool bSolid = false, float Ior = 1.5f)
-{
-	FHostMaterial Glass;
-	Glass.Metallic = 0.0f;
-	Glass.Roughness = 0.0f;
-	Glass.Transmission = 1.0f;
-	Glass.Ior = Ior;
-	Glass.bSolid = bSolid;
-	Glass.bDoubleSided = true;
-	return Glass;
-}
-
-FTestScene::FQuad MakeWall(int32_t Material, float Half, float Z)
-{
-	return {Material, {{-Half, -Half, Z}, {Half, -Half, Z}, {Half, Half, Z}, {-Half, Half, Z}}};
-}
+constexpr double R = GlassR;
 
 class FTransmissionPassTest : public FRenderTest
 {

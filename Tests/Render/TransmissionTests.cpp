@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "Support/RenderFixture.h"
-#include "Support/TestScene.h"
+#include "TransmissionFixture.h"
 
 namespace Lantern
 {
@@ -13,22 +13,7 @@ namespace Lantern
 namespace
 {
 constexpr double Tolerance = 0.005;
-constexpr double R = 0.04; // of ior 1.5
-
-FHostMaterial MakeGlass()
-{
-	FHostMaterial Glass;
-	Glass.Metallic = 0.0f;
-	Glass.Roughness = 0.0f;
-	Glass.Transmission = 1.0f;
-	Glass.bDoubleSided = true;
-	return Glass;
-}
-
-FTestScene::FQuad MakeWall(int32_t Material, float Half, float Z)
-{
-	return {Material, {{-Half, -Half, Z}, {Half, -Half, Z}, {Half, Half, Z}, {-Half, Half, Z}}};
-}
+constexpr double R = GlassR;
 
 /// A wall of 1 nit at z = −10, and what stands before it.
 class FTransmissionTest : public FRenderTest
