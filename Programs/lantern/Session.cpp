@@ -275,7 +275,7 @@ std::string FSession::MakeSceneKey(const FPictureOptions& Options, ESignal Signa
 	    Sky.x, Sky.y, Sky.z);
 	Key += Options.bNoSceneLights ? "no scene lights\n" : "";
 	std::istringstream Names(std::string("r.RT.Material.Override r.RT.AlphaTest r.RT.Lights.Shadows.Point r.RT.Lights.Shadows.Spot "
-	                                     "r.RT.Lights.Shadows.Rect ") +
+	                                     "r.RT.Lights.Shadows.Rect r.Sky.Program r.Sky.Clouds r.Sky.HighClouds r.Sky.Wind ") +
 	                         GetSignalInfo(Signal).ReferenceVariables);
 	for (std::string Name; Names >> Name;)
 	{

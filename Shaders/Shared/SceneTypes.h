@@ -306,10 +306,11 @@ struct FSceneConstants
 	FAddress ToonStyles;      // FToonData[]; 0: no object has a style
 	FAddress ObjectToons;     // uint[]: for each object, its style's place + 1; 0: it has none
 	FAddress ToonNumbers;     // uint[256]: the same for an engine's numbers; 0: no style has a number
+	FAddress SkyData;         // FSkyData (SkyTypes.h); 0: the sky has no program
 	uint SunChannels;         // 8 bits, as those of FLightData
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 296);
+LANTERN_ASSERT_SIZE(FSceneConstants, 304);
 
 // A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
 // Positions are relative to the scene's origin.

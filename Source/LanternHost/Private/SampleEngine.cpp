@@ -8,6 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternHost/SampleSky.h"
 
 namespace Lantern
 {
@@ -80,6 +81,7 @@ FRTStatus FSampleEngine::Precache(const FFrameCapture& Capture, const std::funct
 	};
 	FFrameFeatures Features = MakeFeatures(Capture);
 	Features.Skinning = Scene->SetTime(LastTime.value_or(0.0));
+	ApplySampleSky(Scene->GetScene(), LastTime.value_or(0.0));
 	GBufferPass.Want(*Scene, Features); // beside the others
 	if (FRTStatus S = Renderer.Precache(Scene->GetScene(), Features, Report(0.0f, 1.0f - RasterShare)); !S) { return S; }
 	if (FRTStatus S = ShadowMapPass.Precache(*Scene); !S) { return S; }
@@ -162,6 +164,7 @@ void FSampleEngine::SeekTo(double Time)
 std::vector<FSkinningInputs> FSampleEngine::MoveTo(double Time)
 {
 	SeekTo(Time);
+	ApplySampleSky(Scene->GetScene(), Time);
 	return std::exchange(Skinning, {});
 }
 

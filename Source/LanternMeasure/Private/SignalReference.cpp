@@ -40,6 +40,12 @@ void AddLights(FContentHasher& Hash, const FRTScene& Scene)
 	Hash.Add(Sun.Irradiance);
 	Hash.Add(Sun.AngularDiameter);
 	AddVector(Hash, Scene.GetSky());
+	Hash.Add(Scene.GetSkyProgram().has_value());
+	if (Scene.GetSkyProgram())
+	{
+		const FSkyData Sky = Scene.MakeSkyData();
+		Hash.AddBytes(&Sky, sizeof(Sky));
+	}
 	for (uint32_t Slot = 0; Slot < Scene.GetLights().GetSlotCount(); ++Slot)
 	{
 		FLightData Data = Scene.GetLights().GetTable()[Slot]; // which does not depend on the scene's origin

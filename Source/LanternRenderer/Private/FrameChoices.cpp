@@ -5,6 +5,7 @@
 #include "HeightFog/HeightFog.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "SignalPasses.h"
+#include "Sky/SkyBake.h"
 
 namespace Lantern
 {
@@ -73,6 +74,7 @@ FSignalRequests CompleteRequests(FSignalRequests Requests)
 FSceneFacts AddFrameFacts(FSceneFacts Facts, const FFrameFeatures& Features, const FSignalRequests& Requests)
 {
 	Facts.bHostShadow = Features.bHostShadow;
+	Facts.bSkyInPlace = Facts.bSkyProgram && (Features.bReference || !IsSkyBaked());
 	Facts.bLightMask = Requests.bLightMask && Facts.Lights > 0;
 	Facts.bMaskAlone = Facts.bLightMask && !IsAnyMadeBesideLightMask(Requests);
 	return Facts;

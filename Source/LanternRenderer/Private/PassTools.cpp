@@ -102,6 +102,12 @@ void AddTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
 	if (!CVarSheet.GetOnRenderThread()) { InOut.emplace_back("ONE_INTERFACE", "1"); }
 }
 
+void AddSkyDefines(const FSceneFacts& Facts, FShaderDefines& InOut)
+{
+	if (Facts.bSky) { InOut.emplace_back("HAS_SKY", "1"); }
+	if (Facts.bSky && Facts.bSkyInPlace) { InOut.emplace_back("SKY_IN_PLACE", "1"); }
+}
+
 FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines;
@@ -109,7 +115,7 @@ FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 		if (bHas) { Defines.emplace_back(Name, "1"); }
 	};
 	Add(Facts.bSun, "HAS_SUN");
-	Add(Facts.bSky, "HAS_SKY");
+	AddSkyDefines(Facts, Defines);
 	Add(Facts.Lights > 0, "HAS_LIGHTS");
 	Add(Facts.bAreaLights, "HAS_AREA_LIGHTS");
 	Add((Facts.bAreaLights || Facts.bEmissive) && !CVarLightArea.GetOnRenderThread(), "HALF_LIGHT_AREA");

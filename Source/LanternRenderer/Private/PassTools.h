@@ -77,6 +77,9 @@ void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
 /// Adds HAS_TRANSMISSION if light shines through some material. Shaders that read hits, or what any-hit shaders decide, need it.
 void AddTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
 
+/// Adds HAS_SKY if there is one, and SKY_IN_PLACE if shaders run its program. Shaders that ask SampleSkyRadiance need them.
+void AddSkyDefines(const FSceneFacts& Facts, FShaderDefines& InOut);
+
 /// Returns HAS_… for what the scene has, so that shaders are compiled without the rest.
 FShaderDefines MakeFactDefines(const FSceneFacts& Facts);
 

@@ -163,22 +163,22 @@ FRayPrograms ChooseRayPrograms(
 	FRayPrograms Programs;
 	FRTPSODesc& Desc = Programs.Desc;
 	FCollector Collector{Programs, !Features.RayGens.empty()};
+	const FSceneFacts Facts = AddFrameFacts(Scene.GetFacts(), Features, Requests);
 	if (Features.bReference)
 	{
 		Collector.Add(ESignal::Frame,
-		    ChooseReferenceRays(Capabilities, Scene.GetFacts(), Features.ReferenceSignal, Features.bReferenceFromGBuffer),
+		    ChooseReferenceRays(Capabilities, Facts, Features.ReferenceSignal, Features.bReferenceFromGBuffer),
 		    GetReferencePath(Features.ReferenceSignal));
 		if (Features.bReferenceFromGBuffer)
 		{
-			Programs.Compute = ListReferenceComputeShaders(Scene.GetFacts(), Features.ReferenceSignal);
-			Programs.bMotion = Scene.GetFacts().bLightChannels || Scene.GetFacts().bToon; // it names the pixels' objects
+			Programs.Compute = ListReferenceComputeShaders(Facts, Features.ReferenceSignal);
+			Programs.bMotion = Facts.bLightChannels || Facts.bToon; // it names the pixels' objects
 		}
 	}
 	else
 	{
-		Programs.bMotion = Requests.bMotion || Scene.GetFacts().bLightChannels || Scene.GetFacts().bToon; // it names the pixels' objects
-		if (Scene.GetFacts().bLightChannels) { Programs.Compute.push_back(MakePixelChannelsSource()); }
-		const FSceneFacts Facts = AddFrameFacts(Scene.GetFacts(), Features, Requests);
+		Programs.bMotion = Requests.bMotion || Facts.bLightChannels || Facts.bToon; // it names the pixels' objects
+		if (Facts.bLightChannels) { Programs.Compute.push_back(MakePixelChannelsSource()); }
 		CollectSignals(Collector, Capabilities, Scene, Facts, Requests, Ready);
 		const FPassQuery Query{Capabilities, Facts, Requests};
 		CollectPass(Collector, EPassRayGen::Fog, FogShaders, ChooseFogRays(Query), Facts);
@@ -190,7 +190,7 @@ FRayPrograms ChooseRayPrograms(
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }
 	if (Features.bCameraMotion && Collector.bFilters) { Programs.Compute.push_back(MakeCameraMotionSource()); }
 	if (!Features.Skinning.empty()) { ListSkinningShaders(Scene, Programs.Compute); }
-	if (Programs.bLightSampling) { ListEmissiveShaders(Scene.GetFacts(), Programs.Compute); }
+	if (Programs.bLightSampling) { ListEmissiveShaders(Facts, Programs.Compute); }
 	Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());
 	if (Desc.RayGens.empty() || !Capabilities.bRayTracingPipeline)
 	{
@@ -199,8 +199,8 @@ FRayPrograms ChooseRayPrograms(
 		Programs.PassRayGens.fill(std::nullopt);
 		return Programs;
 	}
-	Desc.RayTypes = {MakeShadowRay(Scene.GetFacts(), Collector.bBlockers)};
-	if (Collector.bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay(Scene.GetFacts())); }
+	Desc.RayTypes = {MakeShadowRay(Facts, Collector.bBlockers)};
+	if (Collector.bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay(Facts)); }
 	Desc.Callables = Features.Callables;
 	Desc.HitPrograms = Scene.GetSections().GetHitPrograms();
 	return Programs;

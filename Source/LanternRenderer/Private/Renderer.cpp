@@ -24,6 +24,7 @@
 #include "Rays/RayQueueCounter.h"
 #include "Rays/RayQueueDemand.h"
 #include "SignalPasses.h"
+#include "Sky/SkyBake.h"
 #include "Skinning/RefitQuality.h"
 #include "Tiles/MovedCasters.h"
 
@@ -56,6 +57,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       ShaderTable(InDevice),
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       CellCounter(std::make_unique<FRadianceCellCounter>(InDevice)),
+      Sky(std::make_unique<FSkyBake>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice)),
       QueueDemand(std::make_unique<FRayQueueDemand>(InDevice)),
@@ -189,7 +191,8 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->QueueDemand = QueueDemand.get();
 	Context->RayCounter = RayCounter.get();
 	Context->Tokens = {
-	    Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"), Graph->CreateToken("Records")};
+	    Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"), Graph->CreateToken("Records"),
+	    Graph->CreateToken("Sky")};
 	Context->bWaitForPipelines = WaitsForPipelines(Features);
 	Pipelines.BeginFrame();
 	FindPreviousView(Scene, Features);
@@ -208,6 +211,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	if (Status) { Status = FrameStatus; }
 	if (Status) { Status = StartUpdate(View, Wanted, Features); }
 	if (Status) { Status = AllocateConstants(); }
+	if (Status) { Status = Sky->AddPasses(*Context, Uploads, Features.ViewIndex); }
 	if (Status && !bSkinningLeftOut) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning, FrameUse.bMotion); }
 	if (!Status)
 	{
@@ -285,6 +289,7 @@ void FRenderer::WriteConstants()
 	FSceneConstants OfScene = Context->Scene.GetConstants();
 	OfScene.AnyHitCounter = AnyHits->GetCounters().GetAddress();
 	OfScene.LightCells = Context->LightCells.Address;
+	Sky->FillConstants(OfScene);
 	OfScene.StandInHits = StandIns->GetCounters().GetAddress();
 	FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin(), Context->PreviousView);
 	OfView.FrameIndex = State->Turn;
@@ -295,6 +300,7 @@ void FRenderer::WriteConstants()
 void FRenderer::KeepHistory(bool bSubmitted)
 {
 	State->History->EndFrame(bSubmitted);
+	Sky->EndFrame(bSubmitted);
 	State->Casters->EndFrame(bSubmitted);
 	State->RadianceEvents->EndFrame(bSubmitted);
 	State->LastScene = bSubmitted ? Context->Scene.GetSections().GetIdentity() : 0;

@@ -9,6 +9,7 @@
 #include "Lights/LightCells.h"
 #include "Lights/LightCellsView.h"
 #include "RayPrograms.h"
+#include "Sky/SkyBake.h"
 #include "Sky/SkyLight.h"
 #include "ToneMap/ToneMap.h"
 #include "Toon/Toon.h"
@@ -28,7 +29,7 @@ void ListCompositeShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 	ListTransmissionComposite(Facts, Out);
 	if (HasHeightFog()) { Out.push_back(MakeHeightFogSource(Facts)); }
 	Out.push_back(MakeToneMapSource());
-	if (Facts.bSkyMap && HasSkyAmbient(Facts)) { Out.push_back(MakeSkyLightSource()); }
+	if (NeedsSkyLight(Facts) && HasSkyAmbient(Facts)) { Out.push_back(MakeSkyLightSource(Facts)); }
 	if (GetDebugView() != ESignal::Frame) { Out.push_back(MakeDebugViewSource()); }
 	if (IsDebugPicture(LightCellsPicture)) { Out.push_back(MakeLightCellsViewSource()); }
 }
@@ -49,7 +50,11 @@ bool FRenderer::FollowsMotion(FRTScene& Scene, const FFrameFeatures& Features) {
 FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
 {
 	FRayPrograms Wanted = ChoosePrograms(Scene, Features);
-	if (!Features.bReference && !Features.Signals.bNothingElse) { ListCompositeShaders(Scene.GetFacts(), Wanted.Compute); }
+	if (!Features.bReference && !Features.Signals.bNothingElse) 
+	{
+		ListCompositeShaders(AddFrameFacts(Scene.GetFacts(), Features, CompleteRequests(Features.Signals)), Wanted.Compute);
+	}
+	if (!Features.bReference) { ListSkyShaders(Scene.GetFacts(), Wanted.Compute); }
 	Pipelines.Want(Wanted.Compute); // beside the ray-tracing pipeline
 	const FRTPSODesc& Rays = Wanted.Desc;
 	const size_t RayCount = Rays.RayGens.size() + Rays.RayTypes.size() * (1 + Rays.HitPrograms.size());

@@ -8,6 +8,15 @@
 namespace Lantern
 {
 
+void FSceneTokens::WriteAlone(FPassBuilder& Builder, FGraphToken Written) const
+{
+	for (const FGraphToken Token : {Tables, Vertices, Structures, Records, Sky})
+	{
+		if (Token.Index == Written.Index) { Builder.Write(Token); }
+		else { Builder.Without(Token); }
+	}
+}
+
 void FRenderer::AddTables()
 {
 	if (!bUpdating || !Context->Scene.NeedsTables()) { return; }
@@ -16,11 +25,7 @@ void FRenderer::AddTables()
 		Builder.NeverCull();
 		Builder.RecordOnTask();
 		Builder.AllowAsync();
-		Builder.Write(Frame->Tokens.Tables);
-		for (const FGraphToken Unused : {Frame->Tokens.Vertices, Frame->Tokens.Structures, Frame->Tokens.Records})
-		{
-			Builder.Without(Unused);
-		}
+		Frame->Tokens.WriteAlone(Builder, Frame->Tokens.Tables);
 		return [=, this](FPassContext& Pass) {
 			if (FRTStatus S = Frame->Scene.RecordTables(Pass.Commands(), Uploads); !S) { Frame->Fail(S); }
 		};
@@ -33,7 +38,7 @@ void DeclareStructures(FPassBuilder& Builder, const FSceneTokens& Tokens)
 {
 	Builder.AllowAsync();
 	Builder.Write(Tokens.Structures);
-	for (const FGraphToken Unused : {Tokens.Tables, Tokens.Records}) { Builder.Without(Unused); }
+	for (const FGraphToken Unused : {Tokens.Tables, Tokens.Records, Tokens.Sky}) { Builder.Without(Unused); }
 }
 } // namespace
 
@@ -74,11 +79,7 @@ void FRenderer::AddRayPasses()
 		Graph->AddPass("ShaderTable", [&](FPassBuilder& Builder) -> FPassExecute {
 			Builder.NeverCull();
 			Builder.AllowAsync();
-			Builder.Write(Frame->Tokens.Records);
-			for (const FGraphToken Unused : {Frame->Tokens.Tables, Frame->Tokens.Vertices, Frame->Tokens.Structures})
-			{
-				Builder.Without(Unused);
-			}
+			Frame->Tokens.WriteAlone(Builder, Frame->Tokens.Records);
 			return [=, this](FPassContext& Pass) {
 				FRTStatus Status = FinishPrebind();
 				if (Status) { Status = ShaderTable.Record(Pass.Commands()); }

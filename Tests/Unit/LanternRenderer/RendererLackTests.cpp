@@ -332,6 +332,22 @@ TEST_F(FRendererLackTest, GlassHasItsPassesAlone)
 	}
 }
 
+TEST_F(FRendererLackTest, ASkyProgramHasItsPassesAlone)
+{
+	FStage Program, InPlace;
+	Program.Settings = {{"r.Sky.Program", "1"}};
+	InPlace.Settings = {{"r.Sky.Program", "1"}, {"r.RT.Sky.Bake", "0"}};
+	const FNames Made = Make(Program), Run = Make(InPlace), None = Make({});
+	for (const char* Part : {"pass SkyBake", "pass SkyFade", "texture SkyBaked", "texture SkyShown", "Sky/Bake.comp", "Sky/Fade.comp"})
+	{
+		EXPECT_TRUE(HasPart(Made, Part)) << Part;
+		EXPECT_FALSE(HasPart(Run, Part)) << "shaders run the program: " << Part;
+		EXPECT_FALSE(HasPart(None, Part)) << "the sky is uniform: " << Part;
+	}
+	EXPECT_TRUE(HasPart(Run, "SKY_IN_PLACE"));
+	EXPECT_FALSE(HasPart(None, "SKY_IN_PLACE"));
+}
+
 TEST_F(FRendererLackTest, ReflectionsByPathsHaveTheirPassesAlone)
 {
 	FStage Off, BruteForce, Paths, Raw;

@@ -35,8 +35,9 @@ FShaderSource MakeLightingSource(FSceneFacts Facts)
 	Facts.bAreaLights &= bLights;
 	Facts.bLightProfiles &= bLights;
 	Facts.bSky &= CVarSkyAmbient.GetOnRenderThread();
-	Facts.bMasked = false; // nothing of it reaches lighting
+	Facts.bMasked = Facts.bSkyInPlace = false; // nothing of it reaches lighting
 	FShaderDefines Defines = MakeFactDefines(Facts);
+	if (Facts.bSkyProgram) { Defines.emplace_back("SKY_IN_PLACE", "1"); } // a camera sees more than a map's texels
 	if (bLights) { AddEmitterDefines(Facts, Defines); }
 	if (Facts.bToon && AreToonStylesOn()) { Defines.emplace_back("HAS_TOON", "1"); }
 	return MakeComputeSource("Lighting/DirectLighting.comp", std::move(Defines));

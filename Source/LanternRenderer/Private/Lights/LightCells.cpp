@@ -148,7 +148,7 @@ struct FLightCells::FFrame
 		Builder.Read(Cells, ERTAccess::StorageRead);
 		Builder.Write(Cells, ERTAccess::StorageWrite);
 		const FSceneTokens& Tokens = Context->Tokens;
-		for (const FGraphToken Unused : {Tokens.Vertices, Tokens.Structures, Tokens.Records}) { Builder.Without(Unused); }
+		for (const FGraphToken Unused : {Tokens.Vertices, Tokens.Structures, Tokens.Records, Tokens.Sky}) { Builder.Without(Unused); }
 	}
 };
 

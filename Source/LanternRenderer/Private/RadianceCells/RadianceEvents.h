@@ -45,6 +45,7 @@ private:
 		uint64_t Scene = 0; ///< identity
 		glm::dvec3 SunDirection{0, -1, 0};
 		glm::vec3 Sun{0}, Sky{0};
+		std::optional<FSkyProgram> SkyProgram;
 		uint64_t Lamps = 0;       ///< place in the journal of lights
 		uint64_t Appearances = 0; ///< FAppearanceChanges::GetObjects
 		double Surfaces = 0.0;    ///< FAppearanceChanges::GetEverywhere

@@ -43,7 +43,9 @@ FShaderSource MakeSurfaceSource()
 
 FShaderSource MakeCombineSource(const FSceneFacts& Facts)
 {
-	return MakeComputeSource("Reflections/Combine.comp", Facts.bSky ? FShaderDefines{{"HAS_SKY", "1"}} : FShaderDefines{});
+	FShaderDefines Defines;
+	AddSkyDefines(Facts, Defines);
+	return MakeComputeSource("Reflections/Combine.comp", std::move(Defines));
 }
 
 /// The paths of one frame.

@@ -130,11 +130,7 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 		Builder.NeverCull();
 		Builder.RecordOnTask();
 		Builder.AllowAsync();
-		Builder.Write(Context.Tokens.Vertices);
-		for (const FGraphToken Unused : {Context.Tokens.Tables, Context.Tokens.Structures, Context.Tokens.Records})
-		{
-			Builder.Without(Unused);
-		}
+		Context.Tokens.WriteAlone(Builder, Context.Tokens.Vertices);
 		return [=, Dispatches = MakeDispatches(Items), Before = std::move(Before), After = std::move(After)](FPassContext& Pass) {
 			Pass.Commands().Barriers(Before.data(), static_cast<uint32_t>(Before.size()));
 			Pass.Commands().SetPipeline(Pipeline);

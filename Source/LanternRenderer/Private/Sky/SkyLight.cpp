@@ -6,9 +6,16 @@
 namespace Lantern
 {
 
+FShaderSource MakeSkyLightSource(const FSceneFacts& Facts)
+{
+	FShaderDefines Defines;
+	AddSkyDefines(Facts, Defines);
+	return MakeComputeSource("Sky/SkyLight.comp", std::move(Defines));
+}
+
 FGraphTexture AddSkyLightPass(FFrameContext& Context)
 {
-	IRTPipeline* const Pipeline = Context.Facts.bSkyMap ? RequireCompute(Context, MakeSkyLightSource()) : nullptr;
+	IRTPipeline* const Pipeline = NeedsSkyLight(Context.Facts) ? RequireCompute(Context, MakeSkyLightSource(Context.Facts)) : nullptr;
 	if (!Pipeline) { return {}; }
 	const FGraphTexture Output = Context.Graph.CreateTexture({SKY_LIGHT_TERMS, 1, ERTFormat::RGBA32_FLOAT}, "SkyLight");
 	const FPassConstants PassConstants = Context.Pass;

@@ -114,6 +114,7 @@ class FRadianceEvents;
 class FRayQueueCounter;
 class FRayQueueDemand;
 class FRefitQuality;
+class FSkyBake;
 class FRenderer;
 class FStandInFeedback;
 struct FRayPrograms;
@@ -148,11 +149,14 @@ struct FSceneTokens
 	FGraphToken Vertices;   ///< of deformed geometry
 	FGraphToken Structures; ///< acceleration structures
 	FGraphToken Records;    ///< of the shader table
+	FGraphToken Sky;        ///< the map that its program is baked into
 	/// Says that the pass reads nothing of the scene.
 	void LeaveAlone(FPassBuilder& Builder) const
 	{
-		for (const FGraphToken Token : {Tables, Vertices, Structures, Records}) { Builder.Without(Token); }
+		for (const FGraphToken Token : {Tables, Vertices, Structures, Records, Sky}) { Builder.Without(Token); }
 	}
+	/// Says that the pass changes one, and touches nothing else of the scene.
+	void WriteAlone(FPassBuilder& Builder, FGraphToken Written) const;
 };
 
 /// Light in fog by froxels, in atlases of slices: FogTypes.h says where a froxel lies. A texture is invalid if the scene has nothing
@@ -415,6 +419,7 @@ private:
 	FShaderTable ShaderTable;
 	std::unique_ptr<FAnyHitCounter> AnyHits;
 	std::unique_ptr<FRadianceCellCounter> CellCounter;
+	std::unique_ptr<FSkyBake> Sky;
 	FMaterialPrograms Programs;
 	FRTPSOCompiler RayCompiler;
 	std::unique_ptr<FStandInFeedback> StandIns;

@@ -114,6 +114,12 @@ void FRTScene::SetSkyMap(const FSkyMap& Map)
 	Frame->RefreshLightFacts();
 }
 
+void FRTScene::SetSkyProgram(const std::optional<FSkyProgram>& Program)
+{
+	Lights.SetSkyProgram(Program);
+	Frame->RefreshLightFacts();
+}
+
 void FRTScene::SetMissingPrograms(std::vector<FHitProgram> Programs) { Frame->GetBindings().SetMissingPrograms(std::move(Programs)); }
 void FRTScene::SetRayTypes(uint32_t Count) { Frame->GetBindings().SetRayTypes(Count); }
 const FSceneFacts& FRTScene::RefreshFacts() { return Frame->RefreshFacts(); }

@@ -1,6 +1,7 @@
 // FSceneLights: the constants of lights, sun and sky.
 #include "LanternScene/Scene/SceneLights.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -31,6 +32,19 @@ void FSceneLights::FillConstants(FSceneConstants& Out) const
 	Out.SkyMapKind = SkyMap.Kind;
 	const glm::mat3 Rows = glm::transpose(SkyMap.WorldToMap);
 	for (int Row = 0; Row < 3; ++Row) { Out.SkyMapAxes[Row] = Rows[Row]; }
+}
+
+FSkyData FSceneLights::MakeSkyData() const
+{
+	FSkyData Out{};
+	Out.ToSun = -glm::vec3(glm::normalize(Sun.Direction));
+	Out.Seconds = static_cast<float>(SkyProgram->Seconds);
+	Out.SunIrradiance = HasSun() ? Sun.Color * Sun.Irradiance : glm::vec3(0);
+	Out.Radiance = Sky;
+	std::ranges::copy(SkyProgram->Values, Out.Values);
+	const glm::mat3 Rows = glm::transpose(SkyProgram->WorldToProgram);
+	for (int Row = 0; Row < 3; ++Row) { Out.Axes[Row] = Rows[Row]; }
+	return Out;
 }
 
 } // namespace Lantern

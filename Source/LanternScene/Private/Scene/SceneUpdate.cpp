@@ -78,7 +78,8 @@ void FSceneUpdate::RefreshLightFacts()
 	const bool bOff = bSunOff || Lights.GetOffChannelCount() > 0 || Parts.Objects.GetOffChannelCount() > 0;
 	Facts.bLightChannels = bOff && (Facts.bSun || Facts.Lights > 0);
 	Facts.bSky = Parts.Lights.HasSky();
-	Facts.bSkyMap = Facts.bSky && Parts.Lights.HasSkyMap();
+	Facts.bSkyProgram = Parts.Lights.GetSkyProgram().has_value();
+	Facts.bSkyMap = Facts.bSky && Parts.Lights.HasSkyMap() && !Facts.bSkyProgram;
 }
 
 bool FSceneUpdate::NeedsUpdate(const FGatherView& View, const FSceneUse& InUse) const

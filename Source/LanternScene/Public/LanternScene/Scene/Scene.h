@@ -57,6 +57,9 @@ struct FSceneFacts
 	bool bSun = false;
 	bool bSky = false;
 	bool bSkyMap = false;     ///< it is a texture
+	bool bSkyProgram = false; ///< it is a program's
+	/// Whatever asks for its radiance runs the program. Set by the renderer.
+	bool bSkyInPlace = false;
 	bool bCharacters = false; ///< some objects are not shadowed by characters: FRTObjectTraits
 	bool bToon = false;       ///< light falls on some objects as on a drawing: FToonStyle
 	bool bToonLayer = false;  ///< some of them have an Occlusion
@@ -158,6 +161,10 @@ public:
 	glm::vec3 GetSky() const { return Lights.GetSky(); }
 	/// Makes a texture the sky in place of SetSky's radiance, or not any more. Whoever gives it keeps it while frames may read it.
 	void SetSkyMap(const FSkyMap& Map);
+	/// Makes a program the sky, or not any more: see FSceneLights. A change of what it gets compiles nothing.
+	void SetSkyProgram(const std::optional<FSkyProgram>& Program);
+	const std::optional<FSkyProgram>& GetSkyProgram() const { return Lights.GetSkyProgram(); }
+	FSkyData MakeSkyData() const { return Lights.MakeSkyData(); }
 	/// 0: the scene's materials; 1: each a Lambert of its base colour; 2: each a Lambert of 0.5, alpha tests off.
 	void SetMaterialOverride(uint32_t Override);
 	void SetAlphaTest(bool bEnabled);

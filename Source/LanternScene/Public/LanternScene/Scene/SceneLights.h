@@ -1,11 +1,15 @@
 // FSceneLights keeps the sun, the sky and the other lights of a scene. Emissive triangles are in EmissiveTriangles.h.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include <glm/glm.hpp>
 
 #include "LanternScene/Lights/LightProfiles.h"
 #include "LanternScene/Lights/LightStore.h"
 #include "SceneTypes.h"
+#include "SkyTypes.h"
 
 namespace Lantern
 {
@@ -29,6 +33,15 @@ struct FSkyMap
 	glm::mat3 WorldToMap{1.0f};
 };
 
+/// Radiance of the sky by direction, as a program: Shaders/Sky/SkyProgram.glsl, or a host's own in its place. It reads the scene's sun too.
+struct FSkyProgram
+{
+	double Seconds = 0.0; ///< moves clouds; finite
+	std::array<glm::vec4, SKY_PROGRAM_VALUES> Values{};
+	glm::mat3 WorldToProgram{1.0f}; ///< a rotation, mirrored or not
+	friend bool operator==(const FSkyProgram&, const FSkyProgram&) = default;
+};
+
 /// Threads: one at a time.
 class FSceneLights
 {
@@ -46,7 +59,12 @@ public:
 	void SetSkyMap(const FSkyMap& Map) { SkyMap = Map; }
 	const FSkyMap& GetSkyMap() const { return SkyMap; }
 	bool HasSkyMap() const { return SkyMap.Slot != NO_TEXTURE; }
-	bool HasSky() const { return HasSkyMap() ? SkyMap.Intensity > 0.0f : glm::any(glm::greaterThan(Sky, glm::vec3(0))); }
+	/// Takes the place of the map. The radiance of SetSky then says how bright the program's sky is.
+	void SetSkyProgram(const std::optional<FSkyProgram>& InProgram) { SkyProgram = InProgram; }
+	const std::optional<FSkyProgram>& GetSkyProgram() const { return SkyProgram; }
+	/// Returns what the program gets. There is one.
+	FSkyData MakeSkyData() const;
+	bool HasSky() const { return SkyProgram || (HasSkyMap() ? SkyMap.Intensity > 0.0f : glm::any(glm::greaterThan(Sky, glm::vec3(0)))); }
 
 	/// Fills the members of Out that describe lights. The table must have been flushed.
 	void FillConstants(FSceneConstants& Out) const;
@@ -57,6 +75,7 @@ private:
 	FSunLight Sun;
 	glm::vec3 Sky{0};
 	FSkyMap SkyMap;
+	std::optional<FSkyProgram> SkyProgram;
 };
 
 } // namespace Lantern

@@ -1,0 +1,294 @@
+// The sky's map: which tiles a frame bakes, and how the map that is shown follows.
+#include "Sky/SkyBake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternRenderer/SkyProgram.h"
+#include "LanternScene/Memory/Upload.h"
+#include "LanternScene/Scene/TextureSlot.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<bool> CVarBake("r.RT.Sky.Bake", true,
+    "Rays that leave the scene read the sky's program from a map. Off: each ray runs the program, as the reference does. Skies without a "
+    "program have no map.");
+TRTConsoleVariable<int32_t> CVarSize(
+    "r.RT.Sky.Size", 1024, "Texels of the sky's map in each direction. The map is octahedral.", {SKY_TILE_SIZE, 8192});
+TRTConsoleVariable<float> CVarRefreshSeconds("r.RT.Sky.RefreshSeconds", 4.0f,
+    "Time, in seconds, in which the sky's map is baked anew while clouds drift. A change of sun or host by more than 2 % is baked at once. "
+    "0: each frame bakes all of it.",
+    {0, 3600});
+TRTConsoleVariable<float> CVarFadeSeconds(
+    "r.RT.Sky.FadeSeconds", 0.25f, "Time, in seconds, in which rays go from the sky's old map to its new one.", {0, 60});
+TRTConsoleVariable<bool> CVarDebugFade("r.RT.Debug.Sky.Fade", true, "Planted fault. Off: rays see the sky's new map from one frame to the next.");
+
+constexpr double JumpChange = 0.02; // of sun or host
+constexpr uint32_t IdleFrames = 8;  // of the view that keeps the time, after which another one does
+
+FShaderSource MakeBakeSource() { return MakeComputeSource("Sky/Bake.comp"); }
+FShaderSource MakeFadeSource() { return MakeComputeSource("Sky/Fade.comp"); }
+
+double GetRelativeChange(double A, double B)
+{
+	const double Greater = std::max(std::abs(A), std::abs(B));
+	return Greater > 0.0 ? std::abs(A - B) / Greater : 0.0;
+}
+
+double GetValuesChange(const glm::vec4* A, const glm::vec4* B)
+{
+	double Change = 0.0;
+	for (int I = 0; I < 4 * SKY_PROGRAM_VALUES; ++I) { Change = std::max(Change, GetRelativeChange(A[I / 4][I % 4], B[I / 4][I % 4])); }
+	return Change;
+}
+
+double GetAxesChange(const glm::vec3* A, const glm::vec3* B)
+{
+	double Change = 0.0;
+	for (int I = 0; I < 3; ++I) { Change = std::max(Change, double(glm::length(A[I] - B[I]))); }
+	return std::min(Change, 1.0);
+}
+
+float GetMax(const glm::vec3& Color) { return std::max({Color.x, Color.y, Color.z}); }
+
+/// Returns a power of two near what the brighter parts of the sky send: half floats then have room above and below.
+float ChooseNits(const FSkyData& Sky)
+{
+	const float Brightness = std::max({GetMax(Sky.SunIrradiance) / 3.0f, GetMax(Sky.Radiance), 1.0e-6f});
+	return std::exp2(std::round(std::log2(Brightness)));
+}
+
+uint32_t CountTiles(uint32_t Size)
+{
+	const uint32_t InRow = DivideUp(Size, SKY_TILE_SIZE);
+	return InRow * InRow;
+}
+} // namespace
+
+FShaderHeader MakeSkyProgramHeader(const std::string& Path)
+{
+	const char* const Replaced = "Sky/SkyProgram.glsl";
+	return {Replaced, "#include \"" + Path + "\"\n", Replaced};
+}
+
+bool IsSkyBaked() { return CVarBake.GetOnRenderThread(); }
+
+double GetSkyProgramChange(const std::optional<FSkyProgram>& Before, const std::optional<FSkyProgram>& Now)
+{
+	if (!Before || !Now) { return Before.has_value() == Now.has_value() ? 0.0 : 1.0; }
+	return std::max(
+	    GetValuesChange(Before->Values.data(), Now->Values.data()), GetAxesChange(&Before->WorldToProgram[0], &Now->WorldToProgram[0]));
+}
+
+double GetSkyChange(const FSkyData& Before, const FSkyData& Now)
+{
+	double Change = std::max({GetValuesChange(Before.Values, Now.Values), GetAxesChange(Before.Axes, Now.Axes),
+	    double(glm::length(Before.ToSun - Now.ToSun))});
+	for (int I = 0; I < 3; ++I)
+	{
+		Change = std::max({Change, GetRelativeChange(Before.SunIrradiance[I], Now.SunIrradiance[I]),
+		    GetRelativeChange(Before.Radiance[I], Now.Radiance[I])});
+	}
+	return std::min(Change, 1.0);
+}
+
+void ListSkyShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out)
+{
+	if (!Facts.bSkyProgram || !IsSkyBaked()) { return; }
+	Out.push_back(MakeBakeSource());
+	Out.push_back(MakeFadeSource());
+}
+
+void FSkyBake::Free()
+{
+	Baked = Shown = {};
+	Done = 1.0;
+	FadeLeft = 0.0;
+}
+
+FRTStatus FSkyBake::CreateMap(const char* Name, uint32_t Size, FMap& Out)
+{
+	FRTTextureDesc Desc;
+	Desc.Width = Desc.Height = Size;
+	Desc.Format = ERTFormat::RGBA16_FLOAT;
+	Desc.Usage = ERTTextureUsage::Sampled | ERTTextureUsage::Storage;
+	Desc.Name = Name;
+	Out = {};
+	return Device.CreateTexture(Desc, Out.Texture.ReleaseAndGetAddress());
+}
+
+FRTStatus FSkyBake::Prepare(uint32_t Size)
+{
+	if (Shown.Texture && Shown.Texture->GetDesc().Width == Size) { return FRTStatus::Success(); }
+	Free();
+	FRTStatus Status;
+	if (!Sampler)
+	{
+		FRTSamplerDesc Desc;
+		Desc.U = Desc.V = ERTAddress::Clamp;
+		Desc.Name = "Sky";
+		Status = Device.CreateSampler(Desc, Sampler.ReleaseAndGetAddress());
+	}
+	if (Status) { Status = CreateMap("SkyBaked", Size, Baked); }
+	if (Status) { Status = CreateMap("SkyShown", Size, Shown); }
+	if (!Status) { Free(); }
+	return Status;
+}
+
+/// The time of several views of a frame must not add up.
+bool FSkyBake::TakesTurn(const FFrameContext& Context, uint32_t ViewIndex)
+{
+	const uint32_t Frame = Context.View.FrameIndex;
+	if (ViewIndex != TurnView && Frame - TurnFrame < IdleFrames && Shown.bWritten) { return false; }
+	TurnView = ViewIndex;
+	TurnFrame = Frame;
+	return true;
+}
+
+FSkyBake::FStep FSkyBake::Advance(const FSkyData& Now, float DeltaSeconds)
+{
+	FStep Step;
+	const uint32_t Tiles = CountTiles(Shown.Texture->GetDesc().Width);
+	const double Fade = CVarDebugFade.GetOnRenderThread() ? double(CVarFadeSeconds.GetOnRenderThread()) : 0.0;
+	const double Refresh = CVarRefreshSeconds.GetOnRenderThread();
+	const bool bLeapt = std::abs(double(Now.Seconds) - double(Round.Seconds)) > 2.0 * Refresh + 1.0;
+	const bool bWhole = !Baked.bWritten || bLeapt || GetSkyChange(Round, Now) > JumpChange;
+	const bool bIdle = Done >= 1.0 && FadeLeft <= 0.0;
+	if (bWhole || (bIdle && std::memcmp(&Round, &Now, sizeof(Now)) != 0))
+	{
+		Round = Now;
+		Done = 0.0;
+		Baked.Nits = ChooseNits(Now);
+	}
+	if (Done < 1.0)
+	{
+		const double Before = Done, Seconds = Refresh - Fade;
+		Done = bWhole || Seconds <= 0.0 ? 1.0 : std::min(Done + double(DeltaSeconds) / Seconds, 1.0);
+		Step.FirstTile = static_cast<uint32_t>(Before * Tiles);
+		Step.TileCount = static_cast<uint32_t>(Done * Tiles) - Step.FirstTile;
+		if (Done >= 1.0) { FadeLeft = std::max(Fade, 1.0e-6); }
+	}
+	if (Done >= 1.0 && FadeLeft > 0.0)
+	{
+		Step.Fade = Shown.bWritten ? static_cast<float>(std::min(double(DeltaSeconds) / FadeLeft, 1.0)) : 1.0f;
+		FadeLeft = Step.Fade >= 1.0f ? 0.0 : FadeLeft - double(DeltaSeconds);
+	}
+	return Step;
+}
+
+FRTStatus FSkyBake::AddBakePass(
+    FFrameContext& Context, FFrameUploads& Uploads, IRTPipeline* Pipeline, const FStep& Step, FGraphTexture Target)
+{
+	FUploadSlice Slice;
+	if (FRTStatus S = Uploads.Allocate(sizeof(Round), Slice); !S) { return S; }
+	std::memcpy(Slice.Data, &Round, sizeof(Round));
+	const uint32_t Size = Baked.Texture->GetDesc().Width;
+	const float Nits = Baked.Nits;
+	Context.Graph.AddPass("SkyBake", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Write(Target, ERTAccess::StorageWrite);
+		Context.Tokens.LeaveAlone(Builder);
+		return [=](FPassContext& Pass) {
+			FSkyBakeConstants C{};
+			C.Sky = Slice.Address;
+			C.Output = Pass.GetTexture(Target)->GetStorageIndex();
+			C.Size = Size;
+			C.FirstTile = Step.FirstTile;
+			C.PerTexel = 1.0f / Nits;
+			Pass.Commands().SetPipeline(Pipeline);
+			Pass.Commands().PushConstants(&C, sizeof(C));
+			Pass.Commands().Dispatch(SKY_TILE_SIZE / SKY_GROUP_SIZE, SKY_TILE_SIZE / SKY_GROUP_SIZE, Step.TileCount);
+		};
+	});
+	Baked.bWritten = true;
+	return FRTStatus::Success();
+}
+
+void FSkyBake::AddFadePass(FFrameContext& Context, IRTPipeline* Pipeline, float Share, FGraphTexture From, FGraphTexture Target)
+{
+	const uint32_t Size = Shown.Texture->GetDesc().Width;
+	const float OfShown = Share < 1.0f ? (1.0f - Share) * Shown.Nits / Baked.Nits : 0.0f;
+	Context.Graph.AddPass("SkyFade", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(From, ERTAccess::ShaderRead);
+		if (OfShown > 0.0f) { Builder.Read(Target, ERTAccess::ShaderRead); }
+		Builder.Write(Target, ERTAccess::StorageWrite);
+		Context.Tokens.LeaveAlone(Builder);
+		return [=](FPassContext& Pass) {
+			FSkyFadeConstants C{};
+			C.Baked = GetSampledIndex(Pass, From);
+			C.Shown = GetSampledIndex(Pass, Target);
+			C.Output = GetStorageIndex(Pass, Target);
+			C.Size = Size;
+			C.OfBaked = Share;
+			C.OfShown = OfShown;
+			Dispatch2D(Pass, Pipeline, C, Size, Size, SKY_GROUP_SIZE);
+		};
+	});
+	// Later passes read the map without the graph.
+	Context.Graph.AddPass("SkyReady", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.NeverCull();
+		Builder.Read(Target, ERTAccess::ShaderRead);
+		Context.Tokens.WriteAlone(Builder, Context.Tokens.Sky);
+		return [](FPassContext&) {};
+	});
+	Shown.bWritten = true;
+	Shown.Nits = Baked.Nits;
+}
+
+FRTStatus FSkyBake::AddPasses(FFrameContext& Context, FFrameUploads& Uploads, uint32_t ViewIndex)
+{
+	Data = 0;
+	bUsed = false;
+	const uint64_t World = Context.Scene.GetSections().GetIdentity();
+	if (!Context.Facts.bSkyProgram || World != LastWorld) { Free(); }
+	LastWorld = World;
+	if (!Context.Facts.bSkyProgram) { return FRTStatus::Success(); }
+	const FSkyData Now = Context.Scene.MakeSkyData();
+	FUploadSlice Slice;
+	if (FRTStatus S = Uploads.Allocate(sizeof(Now), Slice); !S) { return S; }
+	std::memcpy(Slice.Data, &Now, sizeof(Now));
+	Data = Slice.Address;
+	if (Context.Facts.bSkyInPlace) { return FRTStatus::Success(); }
+	IRTPipeline* const Bake = RequireCompute(Context, MakeBakeSource());
+	IRTPipeline* const Fade = RequireCompute(Context, MakeFadeSource());
+	if (!Bake || !Fade)
+	{
+		Context.Facts.bSkyProgram = false; // later passes must not need it either
+		return FRTStatus::Success();
+	}
+	if (FRTStatus S = Prepare(static_cast<uint32_t>(CVarSize.GetOnRenderThread())); !S) { return S; }
+	bUsed = true;
+	if (!TakesTurn(Context, ViewIndex)) { return FRTStatus::Success(); }
+	const FStep Step = Advance(Now, Context.View.DeltaSeconds);
+	if (Step.TileCount == 0 && Step.Fade <= 0.0f) { return FRTStatus::Success(); }
+	const auto Import = [&](const FMap& Map, const char* Name) {
+		return Context.Graph.ImportTexture(
+		    Map.Texture.Get(), Map.bWritten ? ERTAccess::ShaderRead : ERTAccess::None, ERTAccess::ShaderRead, Name);
+	};
+	const FGraphTexture Target = Import(Baked, "SkyBaked");
+	FRTStatus Status;
+	if (Step.TileCount > 0) { Status = AddBakePass(Context, Uploads, Bake, Step, Target); }
+	if (Status && Step.Fade > 0.0f) { AddFadePass(Context, Fade, Step.Fade, Target, Import(Shown, "SkyShown")); }
+	return Status;
+}
+
+void FSkyBake::FillConstants(FSceneConstants& InOut) const
+{
+	InOut.SkyData = Data;
+	if (!bUsed || !Shown.bWritten) { return; }
+	if (!MakeTextureSlot(Shown.Texture->GetSampledIndex(), Sampler->GetIndex(), InOut.SkyMap)) { return; }
+	InOut.SkyRadiance = glm::vec3(Shown.Nits);
+	InOut.SkyMapKind = SKY_MAP_OCTAHEDRAL;
+	for (int Row = 0; Row < 3; ++Row) { InOut.SkyMapAxes[Row] = glm::vec3(Row == 0, Row == 1, Row == 2); }
+}
+
+void FSkyBake::EndFrame(bool bSubmitted)
+{
+	if (!bSubmitted) { Free(); }
+}
+
+} // namespace Lantern
