@@ -12,7 +12,7 @@ LANTERN_SHARED_BEGIN
 
 struct FSkyData
 {
-	vec3 ToSun;         // unit length
+	vec3 ToSun;         // unit length; as the program's directions
 	float Seconds;      // time of the host's, which moves clouds
 	vec3 SunIrradiance; // on a plane that faces the sun, lux; 0: no sun
 	uint Pad0;

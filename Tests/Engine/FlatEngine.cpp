@@ -230,7 +230,7 @@ FSignalPicture FFlatEngineTest::Render(const std::function<void(IRTModuleRendere
 	constexpr int Frames = 6;
 	FSignalPicture Out;
 	TRTRef<IRTModuleRenderer> Renderer;
-	const FRTStatus Status = Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress());
+	const FRTStatus Status = Module->CreateRenderer(Device.Get(), RendererDesc, Renderer.ReleaseAndGetAddress());
 	EXPECT_TRUE(Status.IsOk()) << Status.Message;
 	if (!Status) { return Out; }
 	Fill(*Renderer);

@@ -46,6 +46,7 @@ protected:
 	/// Adds an object of the mesh with the material.
 	static ERTObjectHandle Place(IRTModuleRenderer& Renderer, ERTMeshHandle Mesh, ERTMaterialHandle Material, glm::dvec3 At, double Scale);
 
+	FRTModuleRendererDesc RendererDesc; ///< of renderers that Render makes
 	TRTRef<IRTModule> Module;
 	TRTRef<IRTDevice> Device;
 	TRTRef<IRTTexture> Depth, Normals, BaseColor, Material;

@@ -1,12 +1,14 @@
 // The sky as a texture of the engine's: pictures are those of the same sky said otherwise.
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
 
 #include "FlatEngine.h"
 #include "Support/OctahedralTexels.h"
+#include "Support/SharedFiles.h"
 
 namespace Lantern
 {
@@ -157,6 +159,29 @@ TEST_F(FSkyMapTest, ARotatedMapTurnsTheSky)
 	const double Painted = Rotated.GetMeanDifference(RenderSky(&Other));
 	Print("rotated and painted so", Painted);
 	EXPECT_LE(Painted, 1e-3);
+}
+
+TEST_F(FSkyMapTest, AProgramIsTheSkyThatAMapOfItIs)
+{
+	const FRTModuleSkyMap Cube = Describe(MakeCube(GetSlopedSky));
+	const FSignalPicture Mapped = RenderSky(&Cube);
+	const FTemporaryFolder Folder;
+	const std::string File = Folder / "OwnSky.glsl";
+	std::ofstream(File) << "vec3 EvaluateSky(vec3 Direction, FSkyData Sky) { return vec3(Sky.Values[0].x + Sky.Values[15].w * Direction.x); }";
+	RendererDesc.SkyShader = File.c_str();
+	FRTModuleSkyProgram Program;
+	Program.Values[0] = Mean;
+	Program.Values[63] = Slope;
+	BeforeFrame = [&](IRTModuleRenderer& Renderer, int) { ASSERT_OK(Renderer.SetSkyProgram(&Program)); };
+	for (const char* const Bake : {"1", "0"})
+	{
+		SetVariable("r.RT.Sky.Bake", Bake);
+		const double Difference = Mapped.GetMeanDifference(RenderSky(nullptr, Uniform));
+		Print(*Bake == '1' ? "baked" : "in place", Difference);
+		EXPECT_LE(Difference, 2e-3) << "as of two kinds of maps";
+	}
+	BeforeFrame = [&](IRTModuleRenderer& Renderer, int Index) { ASSERT_OK(Renderer.SetSkyProgram(Index < 3 ? &Program : nullptr)); };
+	EXPECT_EQ(Mapped.GetMeanDifference(RenderSky(&Cube)), 0.0) << "null: the map again";
 }
 
 TEST_F(FSkyMapTest, ASkyMayChangeEachFrame)

@@ -51,6 +51,13 @@ FRTStatus CheckSky(const float Radiance[3])
 	return bGood ? FRTStatus::Success() : Refuse("the sky's radiance must be finite and not negative");
 }
 
+FRTStatus CheckSkyProgram(const FRTModuleSkyProgram& Program)
+{
+	if (!std::isfinite(Program.Seconds)) { return Refuse("FRTModuleSkyProgram::Seconds is not finite"); }
+	const bool bFinite = AreFinite(Program.Values, std::size(Program.Values));
+	return bFinite ? FRTStatus::Success() : Refuse("FRTModuleSkyProgram::Values has a number that is not finite");
+}
+
 FRTStatus CheckSkyMap(const FRTModuleSkyMap& Map)
 {
 	uint32_t Slot = NO_TEXTURE;

@@ -10,6 +10,7 @@ namespace Lantern
 
 FRTStatus CheckSun(const FRTModuleSun& Sun);
 FRTStatus CheckSky(const float Radiance[3]);
+FRTStatus CheckSkyProgram(const FRTModuleSkyProgram& Program);
 FRTStatus CheckSkyMap(const FRTModuleSkyMap& Map);
 FRTStatus CheckLight(const FRTModuleLight& Light);
 /// What of a light counts, by its type.

@@ -20,6 +20,7 @@
 #include "LanternModule/ModuleVulkan.h"
 #include "LanternRHICommon/RefCounted.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
+#include "LanternRenderer/SkyProgram.h"
 #include "ModuleRenderer.h"
 
 namespace Lantern
@@ -127,6 +128,17 @@ FRTStatus FModule::CreateDevice(bool bValidation, IRTDevice** Out)
 	return CreateVulkanDevice(Desc, Out);
 }
 
+namespace
+{
+/// A file of the engine's in place of one of the plugin's.
+struct FOwnShader
+{
+	const char* Path; ///< may be null
+	const char* Name; ///< of the member
+	FShaderHeader (*MakeHeader)(const std::string& Path);
+};
+} // namespace
+
 FRTStatus FModule::CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc& Desc, IRTModuleRenderer** Out)
 {
 	if (Out == nullptr) { return RefuseNull("CreateRenderer", "Out"); }
@@ -136,14 +148,16 @@ FRTStatus FModule::CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc
 	if (const FRTStatus Status = CheckWorld(Desc); !Status) { return Status; }
 	if (!ConfigFolder.empty()) { LoadDeviceProfile({ConfigFolder}, Device->GetCapabilities().DeviceName); }
 	FRendererDesc Renderer{{ShaderFolder}, CacheFolder};
-	if (Desc.HostShadowShader != nullptr)
+	for (const auto& [Path, Name, MakeHeader] : {FOwnShader{Desc.HostShadowShader, "HostShadowShader", MakeHostShadowHeader},
+	         FOwnShader{Desc.SkyShader, "SkyShader", MakeSkyProgramHeader}})
 	{
-		if (!std::filesystem::path(Desc.HostShadowShader).is_absolute() || !std::filesystem::is_regular_file(Desc.HostShadowShader))
+		if (Path == nullptr) { continue; }
+		if (!std::filesystem::path(Path).is_absolute() || !std::filesystem::is_regular_file(Path))
 		{
-			return FRTStatus::Error(ERTResult::InvalidArgument,
-			    "FRTModuleRendererDesc::HostShadowShader is no absolute path of a file: \"%s\"", FRTShown(Desc.HostShadowShader).Text);
+			return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleRendererDesc::%s is no absolute path of a file: \"%s\"", Name,
+			    FRTShown(Path).Text);
 		}
-		Renderer.ShaderHeaders.push_back(MakeHostShadowHeader(Desc.HostShadowShader));
+		Renderer.ShaderHeaders.push_back(MakeHeader(Path));
 	}
 	*Out = new FModuleRenderer(*this, *Device, FModuleWorld(Desc), std::move(Renderer));
 	return FRTStatus::Success();

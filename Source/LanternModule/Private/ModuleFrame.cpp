@@ -280,7 +280,7 @@ FRTStatus FModuleRenderer::Precache(const FRTModuleFrame& Frame, FRTModuleProgre
 	if (const FRTStatus Status = Enter("Precache", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "Precache: EndFrame was not called after RenderFrame"); }
 	if (const FRTStatus Status = CheckPrecache(Frame); !Status) { return Status; }
-	if (const FRTStatus Status = CheckHostShadow(Frame, *On->Device, !Desc.ShaderHeaders.empty()); !Status) { return Status; }
+	if (const FRTStatus Status = CheckHostShadow(Frame, *On->Device, HasHostShadowHeader(Desc.ShaderHeaders)); !Status) { return Status; }
 	if (Frame.Depth != nullptr && Frame.Normals != nullptr)
 	{
 		FFrameViews Views;
@@ -361,7 +361,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	if (const FRTStatus Status = Enter("RenderFrame", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one"); }
 	if (const FRTStatus Status = CheckFrame(Frame, *On->Device); !Status) { return Status; }
-	if (const FRTStatus Status = CheckHostShadow(Frame, *On->Device, !Desc.ShaderHeaders.empty()); !Status) { return Status; }
+	if (const FRTStatus Status = CheckHostShadow(Frame, *On->Device, HasHostShadowHeader(Desc.ShaderHeaders)); !Status) { return Status; }
 	FFrameViews Views;
 	if (const FRTStatus Status = ReadViews(Frame, Views); !Status) { return Status; }
 	if (bLost)

@@ -88,6 +88,7 @@ public:
 	FRTStatus SetSun(const FRTModuleSun& Sun) override { return Calls.SetSun(Sun); }
 	FRTStatus SetSky(const float Radiance[3]) override { return Calls.SetSky(Radiance); }
 	FRTStatus SetSkyMap(const FRTModuleSkyMap* Map) override { return Calls.SetSkyMap(Map); }
+	FRTStatus SetSkyProgram(const FRTModuleSkyProgram* Program) override { return Calls.SetSkyProgram(Program); }
 	FRTStatus Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User) override;
 	FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) override;
 	FRTStatus EndFrame(FRTFence* OutFence) override;

@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 #include "LanternScene/Scene/TextureSlot.h"
 
@@ -17,7 +18,8 @@ glm::dvec3 ToVector(const float Axis[3]) { return {Axis[0], Axis[1], Axis[2]}; }
 FModuleWorld::FModuleWorld(const FRTModuleRendererDesc& Desc)
     : Axes(ToVector(Desc.AxisX), ToVector(Desc.AxisY), ToVector(Desc.AxisZ)),
       // What a float makes of 0.01 is off by 2e-10: 0.2 mm in 1,000 km.
-      MetersPerUnit(std::round(double(Desc.MetersPerUnit) * 1e9) * 1e-9)
+      MetersPerUnit(std::round(double(Desc.MetersPerUnit) * 1e9) * 1e-9),
+      bOwnSky(Desc.SkyShader != nullptr)
 {
 	if (!(MetersPerUnit > 0.0)) { MetersPerUnit = double(Desc.MetersPerUnit); }
 }
@@ -52,6 +54,16 @@ FSkyMap FModuleWorld::ToSkyMap(const FRTModuleSkyMap& Map) const
 		for (int Column = 0; Column < 3; ++Column) { EngineToMap[Column][Row] = double(Map.WorldToMap[3 * Row + Column]); }
 	}
 	Out.WorldToMap = glm::mat3(EngineToMap * glm::transpose(Axes)); // the axes' inverse: they are perpendicular
+	return Out;
+}
+
+FSkyProgram FModuleWorld::ToSkyProgram(const FRTModuleSkyProgram& Program) const
+{
+	FSkyProgram Out;
+	Out.Seconds = Program.Seconds;
+	static_assert(sizeof(Out.Values) == sizeof(Program.Values));
+	std::memcpy(Out.Values.data(), Program.Values, sizeof(Program.Values));
+	if (bOwnSky) { Out.WorldToProgram = glm::mat3(glm::transpose(Axes)); } // the plugin's own sky has y up, as Lantern's world
 	return Out;
 }
 

@@ -24,6 +24,8 @@ public:
 	glm::dvec3 ToDirection(const float Direction[3]) const { return Axes * glm::dvec3(Direction[0], Direction[1], Direction[2]); }
 	/// Map: checked.
 	FSkyMap ToSkyMap(const FRTModuleSkyMap& Map) const;
+	/// Program: checked.
+	FSkyProgram ToSkyProgram(const FRTModuleSkyProgram& Program) const;
 	double ToMeters(double Length) const { return Length * MetersPerUnit; }
 	double GetMetersPerUnit() const { return MetersPerUnit; }
 	/// Columns: the engine's axes.
@@ -32,6 +34,7 @@ public:
 private:
 	glm::dmat3 Axes{1.0};
 	double MetersPerUnit = 1.0;
+	bool bOwnSky = false; ///< FRTModuleRendererDesc::SkyShader is the engine's
 };
 
 /// Ok, or InvalidArgument, which names the member.

@@ -439,6 +439,19 @@ FRTStatus FSceneCalls::SetSkyMap(const FRTModuleSkyMap* Map)
 	return FRTStatus::Success();
 }
 
+FRTStatus FSceneCalls::SetSkyProgram(const FRTModuleSkyProgram* Program)
+{
+	FSkyProgramCommand Command;
+	if (Program != nullptr)
+	{
+		if (const FRTStatus Status = CheckSkyProgram(*Program); !Status) { return Status; }
+		Command.Program = World.ToSkyProgram(*Program);
+	}
+	std::lock_guard Lock(Mutex);
+	Updates.emplace_back(Command);
+	return FRTStatus::Success();
+}
+
 FRTStatus FSceneCalls::SetSky(const float Radiance[3])
 {
 	if (const FRTStatus Status = CheckSky(Radiance); !Status) { return Status; }

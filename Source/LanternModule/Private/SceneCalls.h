@@ -59,6 +59,7 @@ public:
 	FRTStatus SetSun(const FRTModuleSun& Sun);
 	FRTStatus SetSky(const float Radiance[3]);
 	FRTStatus SetSkyMap(const FRTModuleSkyMap* Map);
+	FRTStatus SetSkyProgram(const FRTModuleSkyProgram* Program);
 
 	/// Moves the commands that a frame takes over to the end of Out, in order. Updates of what the scene has come all, arrivals
 	/// and departures as many as MostArrivals says; 0: all of them. A new mesh counts as several. Returns whether some are left.

@@ -104,6 +104,11 @@ struct FSkyMapCommand
 	FMaterialTextures Old; ///< what the sky no longer refers to
 };
 
+struct FSkyProgramCommand
+{
+	std::optional<FSkyProgram> Program;
+};
+
 /// The engine's GPU has written new positions.
 struct FDeformedCommand
 {
@@ -124,6 +129,7 @@ struct FLightCommand
 
 using FSceneCommand = std::variant<FMaterialCommand, FAddMeshCommand, FRemoveMeshCommand, FAddObjectCommand, FRemoveObjectCommand,
     FTransformCommand, FMaskCommand, FChannelsCommand, FToonCommand, FObjectMaterialsCommand, FObjectMeshCommand, FVerticesCommand,
-    FDeformedCommand, FProfileCommand, FLightCommand, FSunLight, FSkyCommand, FSkyMapCommand>;
+    FDeformedCommand, FProfileCommand, FLightCommand, FSunLight, FSkyCommand, FSkyMapCommand,
+    FSkyProgramCommand>;
 
 } // namespace Lantern

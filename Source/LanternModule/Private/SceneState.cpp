@@ -51,6 +51,7 @@ FSceneValues FSceneState::Describe() const
 	}
 	Out.Sun = Scene.GetSun();
 	Out.Sky = Scene.GetSky();
+	Out.SkyProgram = Scene.GetSkyProgram();
 	return Out;
 }
 

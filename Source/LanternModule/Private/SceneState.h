@@ -65,6 +65,7 @@ private:
 	void Do(FSunLight& Command) { Scene.SetSun(Command); }
 	void Do(FSkyCommand& Command) { Scene.SetSky(Command.Radiance); }
 	void Do(FSkyMapCommand& Command);
+	void Do(FSkyProgramCommand& Command) { Scene.SetSkyProgram(Command.Program); }
 	/// A change of mesh that waits until rays can see the new one.
 	struct FMeshChange
 	{

@@ -50,6 +50,7 @@ struct FFollower
 	void operator()(const FLightCommand& Command) { GetSlot(Values.Lights, Command.Slot) = Command.Light; }
 	void operator()(const FSunLight& Command) { Values.Sun = Command; }
 	void operator()(const FSkyCommand& Command) { Values.Sky = Command.Radiance; }
+	void operator()(const FSkyProgramCommand& Command) { Values.SkyProgram = Command.Program; }
 	void operator()(const FObjectMeshCommand&) {}
 	void operator()(const FSkyMapCommand&) {} // its texture goes with the old device
 	template <class T>
@@ -161,6 +162,7 @@ void FSceneCalls::AddAll(const FSceneValues& Values)
 	});
 	Updates.emplace_back(Values.Sun);
 	Updates.emplace_back(FSkyCommand{Values.Sky});
+	Updates.emplace_back(FSkyProgramCommand{Values.SkyProgram});
 	SkyTextures = {};
 }
 

@@ -18,6 +18,7 @@ struct FSceneValues
 	std::vector<std::optional<FSceneLight>> Lights;
 	FSunLight Sun;
 	glm::vec3 Sky{0};
+	std::optional<FSkyProgram> SkyProgram;
 
 	/// Follows a command that no frame has taken.
 	void Follow(const FSceneCommand& Command);

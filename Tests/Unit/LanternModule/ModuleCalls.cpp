@@ -447,6 +447,7 @@ constexpr FModuleCall Calls[] = {
     {"SetLandscapeHeights", SetLandscapeHeights},
     {"SetObjectMesh", SetObjectMesh},
     {"SetSkyMap", SetSkyMap},
+    {"SetSkyProgram", SetSkyProgram},
     {"Precache", Precache},
 };
 

@@ -114,4 +114,13 @@ FRTStatus SetSkyMap(FModulePlay& Play)
 	return Play.GetRenderer().SetSkyMap(&Map);
 }
 
+FRTStatus SetSkyProgram(FModulePlay& Play)
+{
+	if (!Play.Bool(true)) { return Play.GetRenderer().SetSkyProgram(nullptr); }
+	FRTModuleSkyProgram Program;
+	Program.Seconds = Play.Double("Seconds", 3.0);
+	for (float& Value : Program.Values) { Value = Play.Float("Values", 0.5f); }
+	return Play.GetRenderer().SetSkyProgram(&Program);
+}
+
 } // namespace Lantern

@@ -11,5 +11,6 @@ FRTStatus AddLandscape(FModulePlay& Play);
 FRTStatus SetLandscapeHeights(FModulePlay& Play);
 FRTStatus SetObjectMesh(FModulePlay& Play);
 FRTStatus SetSkyMap(FModulePlay& Play);
+FRTStatus SetSkyProgram(FModulePlay& Play);
 
 } // namespace Lantern

@@ -104,6 +104,9 @@ TEST_F(FModuleHostShadowTest, OwnShaderMustBeAFile)
 		FRTModuleRendererDesc Desc;
 		Desc.HostShadowShader = Path;
 		EXPECT_REFUSED(Module->CreateRenderer(Device.Get(), Desc, Second.ReleaseAndGetAddress()), "HostShadowShader");
+		FRTModuleRendererDesc Sky;
+		Sky.SkyShader = Path;
+		EXPECT_REFUSED(Module->CreateRenderer(Device.Get(), Sky, Second.ReleaseAndGetAddress()), "SkyShader");
 	}
 }
 

@@ -26,7 +26,7 @@ namespace Lantern
 
 /// Incremented when anything changes that an engine was compiled with: in this folder, LanternSignals/Signals.h or
 /// the RHI. The library refuses other versions. A new signal is no change: the arrays have room for MaxSignals.
-inline constexpr uint32_t ModuleVersion = 7;
+inline constexpr uint32_t ModuleVersion = 8;
 
 class IRTModuleVulkan;
 
@@ -273,6 +273,17 @@ struct FRTModuleSkyMap
 	float WorldToMap[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 };
 
+/// Sky of a shader, FRTModuleRendererDesc::SkyShader. It also gets the sun of SetSun and, as a measure of its brightness, the radiance of
+/// SetSky. The plugin bakes it into a map (r.RT.Sky.Bake), which rays read.
+struct FRTModuleSkyProgram
+{
+	/// What moves clouds, in seconds; finite. The map follows within r.RT.Sky.RefreshSeconds.
+	double Seconds = 0.0;
+	/// Any numbers of the engine's, finite: FSkyData::Values. A change by more than 2 % shows at once. The plugin's own sky reads four: cover of
+	/// its low and of its high clouds, 0 to 1, and the wind along x and z of a world with y up, metres a second.
+	float Values[64] = {};
+};
+
 /// Gets User and the share that is done, 0 to 1.
 using FRTModuleProgress = void (*)(void* User, float Done);
 /// The engine's world: directions of its axes in a right-handed world with y up, and its unit. All that crosses the interface is
@@ -285,10 +296,13 @@ struct FRTModuleRendererDesc
 	/// Shader of an engine whose shadow map is none of cascades, as a virtual one. An absolute path of a GLSL file that defines what
 	/// Tiles/HostShadow.glsl of the shader folder does, and takes its place. Read during CreateRenderer. Null: cascades.
 	const char* HostShadowShader = nullptr;
+	/// Shader of the engine's sky. An absolute path of a GLSL file that defines what Sky/SkyProgram.glsl of the shader folder does, and takes
+	/// its place. Directions that it gets are in the engine's world. Read during CreateRenderer. Null: the plugin's own sky.
+	const char* SkyShader = nullptr;
 };
 
 /// Returns the world of Unreal Engine: centimetres, left-handed, x forward, y right, z up.
-inline FRTModuleRendererDesc MakeUnrealWorld() { return {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 0.01f, nullptr}; }
+inline FRTModuleRendererDesc MakeUnrealWorld() { return {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 0.01f, nullptr, nullptr}; }
 
 /// Gives meshes again to IRTModuleRenderer::Recreate. Get returns whether the engine still has the mesh. Out must be what AddMesh
 /// had: as many sections, each with its bMayBeMasked, and bDeformable; vertices may be newer. Its arrays are read before the next
@@ -377,6 +391,9 @@ public:
 	/// sky waits for nothing and compiles nothing, so that it may come with each frame. New texels of the texture may, too. A sky where
 	/// there was none (radiance or Intensity 0) needs other shaders, which compile beside the frames.
 	virtual FRTStatus SetSkyMap(const FRTModuleSkyMap* Map) = 0;
+	/// Makes a program the sky, from the next RenderFrame on, in place of a map. Null: the map or radiance again. A change of what the program
+	/// gets compiles nothing, so that it may come with each frame. A shader that does not compile is logged, and the sky is then uniform.
+	virtual FRTStatus SetSkyProgram(const FRTModuleSkyProgram* Program) = 0;
 
 	/// Compiles what frames like Frame will run in the scene as it is, and waits for it. For load time, between frames: the first
 	/// frames then have their outputs. Reads Wanted, View, Layout and the textures; Commands may be null. Without Depth or Normals it

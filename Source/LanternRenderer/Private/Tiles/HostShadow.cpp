@@ -22,6 +22,8 @@ TRTConsoleVariable<float> CVarTexelPixels("r.RT.Shadow.HostMap.TexelPixels", 1.0
 TRTConsoleVariable<bool> CVarHeld("r.RT.Debug.Shadow.HostMap.Held", true,
     "Planted fault. Off: rays trace what the host's shadow map holds as well, so that penumbrae are shadowed twice.");
 
+constexpr const char* Replaced = "Tiles/HostShadow.glsl";
+
 uint32_t GetHeld(const FHostShadow& Host) { return CVarHeld.GetOnRenderThread() ? Host.Held : HOST_SHADOW_OTHERS; }
 
 struct FAllData
@@ -97,10 +99,11 @@ FHostShadowCascadeData MakeCascade(const FHostShadowCascade& From, const FFrameC
 }
 } // namespace
 
-FShaderHeader MakeHostShadowHeader(const std::string& Path)
+FShaderHeader MakeHostShadowHeader(const std::string& Path) { return {Replaced, "#include \"" + Path + "\"\n", Replaced}; }
+
+bool HasHostShadowHeader(const std::vector<FShaderHeader>& Headers)
 {
-	const char* const Replaced = "Tiles/HostShadow.glsl";
-	return {Replaced, "#include \"" + Path + "\"\n", Replaced};
+	return std::ranges::any_of(Headers, [](const FShaderHeader& Header) { return Header.Include == Replaced; });
 }
 
 FShaderSource MakePyramidSource() { return MakeComputeSource("Tiles/Pyramid.comp"); }

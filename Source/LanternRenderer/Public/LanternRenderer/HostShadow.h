@@ -41,5 +41,7 @@ struct FHostShadow
 /// Returns the header by which a host's own file takes the place of Tiles/HostShadow.glsl, for FRendererDesc::ShaderHeaders. Path:
 /// absolute, or relative to FRendererDesc::ShaderFolders, and none called Tiles/HostShadow.glsl.
 FShaderHeader MakeHostShadowHeader(const std::string& Path);
+/// Whether that header is among them.
+bool HasHostShadowHeader(const std::vector<FShaderHeader>& Headers);
 
 } // namespace Lantern

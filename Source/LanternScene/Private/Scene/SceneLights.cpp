@@ -37,7 +37,7 @@ void FSceneLights::FillConstants(FSceneConstants& Out) const
 FSkyData FSceneLights::MakeSkyData() const
 {
 	FSkyData Out{};
-	Out.ToSun = -glm::vec3(glm::normalize(Sun.Direction));
+	Out.ToSun = SkyProgram->WorldToProgram * -glm::vec3(glm::normalize(Sun.Direction));
 	Out.Seconds = static_cast<float>(SkyProgram->Seconds);
 	Out.SunIrradiance = HasSun() ? Sun.Color * Sun.Irradiance : glm::vec3(0);
 	Out.Radiance = Sky;
