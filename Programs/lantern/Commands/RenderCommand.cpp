@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -27,12 +28,6 @@ namespace Lantern
 
 namespace
 {
-struct FPassFigures
-{
-	std::vector<double> GpuMs, CpuMs;
-	uint64_t Rays = 0;
-};
-
 double Median(std::vector<double> Values)
 {
 	if (Values.empty()) { return 0.0; }
@@ -40,35 +35,58 @@ double Median(std::vector<double> Values)
 	return Values[Values.size() / 2];
 }
 
-/// Timings of several frames, passes in the order of their first appearance.
+/// Timings of the newest frames, passes in the order of their first appearance. A pass that a frame lacks costs it nothing, so that what
+/// runs now and then does not count as if it always did.
 class FFigures
 {
 public:
 	void Add(const std::vector<FPassTiming>& Timings)
 	{
+		Frames.emplace_back();
 		for (const FPassTiming& Timing : Timings)
 		{
-			if (!Passes.count(Timing.Name)) { Order.push_back(Timing.Name); }
-			FPassFigures& Figures = Passes[Timing.Name];
-			Figures.GpuMs.push_back(Timing.GpuMs);
-			Figures.CpuMs.push_back(Timing.CpuMs);
-			Figures.Rays = std::max(Figures.Rays, Timing.Rays);
+			if (std::ranges::find(Order, Timing.Name) == Order.end()) { Order.push_back(Timing.Name); }
+			FPassTiming& Sum = Frames.back()[Timing.Name];
+			Sum.GpuMs += Timing.GpuMs;
+			Sum.CpuMs += Timing.CpuMs;
+			Sum.Rays += Timing.Rays;
 		}
+		if (Frames.size() > MostFrames) { Frames.pop_front(); }
 	}
-	nlohmann::json ToJson() const
+	/// Of those frames.
+	nlohmann::json PassesToJson() const
 	{
 		nlohmann::json Out = nlohmann::json::array();
 		for (const std::string& Name : Order)
 		{
-			const FPassFigures& P = Passes.at(Name);
-			Out.push_back({{"name", Name}, {"gpu_ms", Median(P.GpuMs)}, {"cpu_ms", Median(P.CpuMs)}, {"rays", P.Rays}});
+			const auto GetMedian = [&](auto FPassTiming::*Member) {
+				std::vector<double> Values;
+				for (const FFrame& Frame : Frames) { Values.push_back(Frame.contains(Name) ? double(Frame.at(Name).*Member) : 0.0); }
+				return Median(std::move(Values));
+			};
+			Out.push_back({{"name", Name}, {"gpu_ms", GetMedian(&FPassTiming::GpuMs)}, {"cpu_ms", GetMedian(&FPassTiming::CpuMs)},
+			    {"rays", uint64_t(GetMedian(&FPassTiming::Rays))}});
 		}
 		return Out;
 	}
+	/// Median of what whole frames took, and their greatest.
+	std::pair<double, double> GetFrames(double FPassTiming::*Member) const
+	{
+		std::vector<double> Sums;
+		for (const FFrame& Frame : Frames)
+		{
+			double Sum = 0.0;
+			for (const auto& [Name, Timing] : Frame) { Sum += Timing.*Member; }
+			Sums.push_back(Sum);
+		}
+		return {Median(Sums), Sums.empty() ? 0.0 : std::ranges::max(Sums)};
+	}
 
 private:
+	static constexpr size_t MostFrames = 32;
+	using FFrame = std::map<std::string, FPassTiming>;
 	std::vector<std::string> Order;
-	std::map<std::string, FPassFigures> Passes;
+	std::deque<FFrame> Frames;
 };
 
 /// Settled: whether the frames did, if they were asked to.
@@ -85,17 +103,15 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 	Json["view"] = DescribeView(Options.Picture);
 	Json["frames"] = Options.Frames;
 	Json["settled"] = Settled ? nlohmann::json(*Settled) : nlohmann::json(nullptr);
-	Json["passes"] = Figures.ToJson();
-	double Gpu = 0.0, Cpu = 0.0;
+	Json["passes"] = Figures.PassesToJson();
 	uint64_t Rays = 0;
-	for (const auto& Pass : Json["passes"])
-	{
-		Gpu += Pass["gpu_ms"].get<double>();
-		Cpu += Pass["cpu_ms"].get<double>();
-		Rays += Pass["rays"].get<uint64_t>();
-	}
+	for (const auto& Pass : Json["passes"]) { Rays += Pass["rays"].get<uint64_t>(); }
+	const auto [Gpu, WorstGpu] = Figures.GetFrames(&FPassTiming::GpuMs);
+	const auto [Cpu, WorstCpu] = Figures.GetFrames(&FPassTiming::CpuMs);
 	Json["frame_gpu_ms"] = Gpu;
 	Json["frame_cpu_ms"] = Cpu;
+	Json["worst_frame_gpu_ms"] = WorstGpu;
+	Json["worst_frame_cpu_ms"] = WorstCpu;
 	Json["rays"] = Rays;
 	Json["memory"] = {{"blas", Memory.Geometry}, {"tlas", Memory.Scene}, {"sbt", Memory.ShaderTable}, {"textures", Memory.Texture},
 	    {"peak", Memory.Peak}};
@@ -124,6 +140,8 @@ void PrintTable(const nlohmann::json& Json)
 	}
 	fmt::print("{:<16} {:>10.3f} {:>10.3f} {:>12}\n", "frame", Json["frame_gpu_ms"].get<double>(), Json["frame_cpu_ms"].get<double>(),
 	    Json["rays"].get<uint64_t>());
+	fmt::print(
+	    "{:<16} {:>10.3f} {:>10.3f}\n", "worst frame", Json["worst_frame_gpu_ms"].get<double>(), Json["worst_frame_cpu_ms"].get<double>());
 	const nlohmann::json& Settled = Json["settled"];
 	const char* const End = Settled.is_null() ? "" : Settled.get<bool>() ? ", settled" : ", not settled yet";
 	fmt::print("frames: {}{}\n", Json["frames"].get<uint32_t>(), End);
