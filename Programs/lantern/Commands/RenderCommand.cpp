@@ -19,6 +19,7 @@
 #include "LanternImage/ImageIO.h"
 #include "LanternImage/ToneMap.h"
 #include "LanternMeasure/MeasurePaths.h"
+#include "LanternMeasure/MeasureSequence.h"
 #include "LanternMeasure/Settling.h"
 #include "Progress.h"
 #include "Session.h"
@@ -235,7 +236,7 @@ private:
 		}
 		// The first frame of several builds and compiles: it is not what a frame costs.
 		if (Done == 1) { Figures = {}; }
-		Figures.Add(Engine.GetRenderer().GetGraphResources().GetTimings());
+		Figures.Add(GetTimings(Engine.GetRenderer()));
 		++Done;
 		return FRTStatus::Success();
 	}

@@ -74,17 +74,23 @@ FRTStatus PlayFrame(
 	}
 	// So that the newest finished frame is this one.
 	if (FRTStatus S = Settings.bWait ? Renderer.WaitForAll() : FRTStatus::Success(); !S) { return S; }
-	Out.Passes = Renderer.GetGraphResources().GetTimings();
+	Out.Passes = GetTimings(Renderer);
 	std::erase_if(Out.Passes, [](const FPassTiming& Pass) { return Pass.Name == "Readback"; });
-	for (const auto& [Name, Rays] : Renderer.GetRayCounts().Passes) // with r.RT.Rays.Count
-	{
-		for (FPassTiming& Pass : Out.Passes) { Pass.Rays = Pass.Name == Name ? Rays : Pass.Rays; }
-	}
 	Out.LiveBytes = Renderer.GetDevice().GetMemoryStats().Total;
 	Out.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count();
 	return FRTStatus::Success();
 }
 } // namespace
+
+std::vector<FPassTiming> GetTimings(FRenderer& Renderer)
+{
+	std::vector<FPassTiming> Timings = Renderer.GetGraphResources().GetTimings();
+	for (const auto& [Name, Rays] : Renderer.GetRayCounts().Passes)
+	{
+		for (FPassTiming& Pass : Timings) { Pass.Rays = Pass.Name == Name ? Rays : Pass.Rays; }
+	}
+	return Timings;
+}
 
 double FPlayedFrame::GetGpuMs() const
 {

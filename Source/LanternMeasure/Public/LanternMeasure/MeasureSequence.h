@@ -25,6 +25,10 @@ struct FScriptFrame
 };
 using FScript = std::vector<FScriptFrame>;
 
+/// Returns the passes of the newest finished frame. With r.RT.Rays.Count, their rays are those that were traced, not those that there was
+/// room for.
+std::vector<FPassTiming> GetTimings(FRenderer& Renderer);
+
 struct FPlayedFrame
 {
 	uint32_t Index = 0;    ///< in the script

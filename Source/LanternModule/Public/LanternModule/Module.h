@@ -279,8 +279,8 @@ struct FRTModuleSkyProgram
 {
 	/// What moves clouds, in seconds; finite. The map follows within r.RT.Sky.RefreshSeconds.
 	double Seconds = 0.0;
-	/// Any numbers of the engine's, finite: FSkyData::Values. A change by more than 2 % shows at once. The plugin's own sky reads four: cover of
-	/// its low and of its high clouds, 0 to 1, and the wind along x and z of a world with y up, metres a second.
+	/// Any numbers of the engine's, finite: FSkyData::Values. A change by more than 2 % shows at once. The plugin's own sky reads four: the
+	/// cover of its low and of its high clouds, 0 to 1, and the wind. The wind is along x and z of a world with y up, in metres a second.
 	float Values[64] = {};
 };
 

@@ -19,7 +19,7 @@ TRTConsoleVariable<bool> CVarBake("r.RT.Sky.Bake", true,
     "Rays that leave the scene read the sky's program from a map. Off: each ray runs the program, as the reference does. Skies without a "
     "program have no map.");
 TRTConsoleVariable<int32_t> CVarSize(
-    "r.RT.Sky.Size", 1024, "Texels of the sky's map in each direction. The map is octahedral.", {SKY_TILE_SIZE, 8192});
+    "r.RT.Sky.Size", 1536, "Texels of the sky's map in each direction. The map is octahedral.", {SKY_TILE_SIZE, 8192});
 TRTConsoleVariable<float> CVarRefreshSeconds("r.RT.Sky.RefreshSeconds", 4.0f,
     "Time, in seconds, in which the sky's map is baked anew while clouds drift. A change of sun or host by more than 2 % is baked at once. "
     "0: each frame bakes all of it.",
