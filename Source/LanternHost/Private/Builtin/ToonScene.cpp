@@ -35,6 +35,17 @@ void AddEllipsoid(FMeshBuilder& Builder, const glm::vec3& Center, const glm::vec
 	Builder.SetTransform(glm::mat4(1));
 }
 
+/// The figures' only metal: what else they have reflects nothing.
+int32_t AddGold(FSceneBuilder& Builder)
+{
+	FHostMaterial Gold;
+	Gold.Name = "gold";
+	Gold.BaseColor = {0.9f, 0.68f, 0.32f, 1.0f};
+	Gold.Metallic = 1.0f;
+	Gold.Roughness = 0.15f;
+	return Builder.AddMaterial(Gold);
+}
+
 FMeshBuilder MakeFace(FSceneBuilder& Builder, const std::string& Name)
 {
 	FMeshBuilder Face(Name + " face");
@@ -99,8 +110,12 @@ FMeshBuilder MakeBody(FSceneBuilder& Builder, const std::string& Name, const FLo
 	Body.BeginSection(Trim);
 	const glm::vec2 Hem[] = {{0.345f, 0.4f}, {0.35f, 0.43f}, {0.34f, 0.45f}};
 	Body.AddLathe(Hem, 48);
+	Body.BeginSection(AddGold(Builder));
+	AddEllipsoid(Body, {0, 1.08f, 0.135f}, {0.034f, 0.034f, 0.016f}, 4); // brooch
+	AddEllipsoid(Body, {0, 0.885f, 0.128f}, {0.034f, 0.024f, 0.014f}, 4); // buckle
 	const glm::vec2 Belt[] = {{0.122f, 0.86f}, {0.128f, 0.88f}, {0.122f, 0.91f}};
 	Body.AddLathe(Belt, 48);
+	Body.BeginSection(Dress);
 	for (const float Side : {-1.0f, 1.0f})
 	{
 		const glm::vec3 Leg[] = {{Side * 0.075f, 0.62f, 0}, {Side * 0.08f, 0.3f, 0.005f}, {Side * 0.085f, 0.0f, 0}};

@@ -4,6 +4,7 @@
 #include "BruteForce/BruteForce.h"
 #include "Reflections/ReflectionPaths.h"
 #include "SignalPasses.h"
+#include "Toon/Toon.h"
 
 namespace Lantern
 {
@@ -67,7 +68,14 @@ float GetReflectedRoughnessInReference()
 
 FPassRays ChooseReflectionsRays(const FPassQuery& Query)
 {
-	return IsPathRoute() ? ChooseReflectionPaths(GetPathSettings(Query), Query) : ChooseBruteForceRays(BruteForce, Query);
+	FPassRays Rays = IsPathRoute() ? ChooseReflectionPaths(GetPathSettings(Query), Query) : ChooseBruteForceRays(BruteForce, Query);
+	if (Rays.Path != ERayPath::None) { ListToonReflectionShaders(Query.Facts, Rays.Compute); }
+	return Rays;
+}
+
+FGBuffer AddReflectingSurface(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	return AddToonReflections(Context, GBuffer, GetEmissionRoughness());
 }
 
 bool AreReflectionsFiltered(const FRTScene&) { return IsPathRoute() && AreReflectionPathsFiltered(); }
@@ -80,13 +88,13 @@ void ListReflectionFilters(const FRTScene&, const FPassQuery&, std::vector<FShad
 FGraphTexture AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	if (Context.ReflectedLight) { return *Context.ReflectedLight; }
+	const FPassQuery Query{Context.Device.GetCapabilities(), Context.Facts, Context.Signals};
 	FGraphTexture Light;
-	if (!IsPathRoute()) { Light = AddBruteForcePass(BruteForce, Context, GBuffer).Lobe; }
-	else
+	if (GetReflectedRoughness(Query) >= 0.0f)
 	{
-		const FReflectionPathSettings Settings = GetPathSettings({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
-		const bool bMade = Settings.Path != ERayPath::None && IsMade(ESignal::Reflections, Context.Signals);
-		if (bMade) { Light = AddReflectionPaths(Settings, Context, GBuffer); }
+		const FGBuffer Styled = AddReflectingSurface(Context, GBuffer);
+		Light = IsPathRoute() ? AddReflectionPaths(GetPathSettings(Query), Context, Styled)
+		                      : AddBruteForcePass(BruteForce, Context, Styled).Lobe;
 	}
 	Context.ReflectedLight = Light;
 	return Light;

@@ -26,7 +26,8 @@ TRTConsoleVariable<float> CVarRefreshSeconds("r.RT.Sky.RefreshSeconds", 4.0f,
     {0, 3600});
 TRTConsoleVariable<float> CVarFadeSeconds(
     "r.RT.Sky.FadeSeconds", 0.25f, "Time, in seconds, in which rays go from the sky's old map to its new one.", {0, 60});
-TRTConsoleVariable<bool> CVarDebugFade("r.RT.Debug.Sky.Fade", true, "Planted fault. Off: rays see the sky's new map from one frame to the next.");
+TRTConsoleVariable<bool> CVarDebugFade(
+    "r.RT.Debug.Sky.Fade", true, "Planted fault. Off: rays see the sky's new map from one frame to the next.");
 
 constexpr double JumpChange = 0.02; // of sun or host
 constexpr uint32_t IdleFrames = 8;  // of the view that keeps the time, after which another one does
@@ -87,8 +88,8 @@ double GetSkyProgramChange(const std::optional<FSkyProgram>& Before, const std::
 
 double GetSkyChange(const FSkyData& Before, const FSkyData& Now)
 {
-	double Change = std::max({GetValuesChange(Before.Values, Now.Values), GetAxesChange(Before.Axes, Now.Axes),
-	    double(glm::length(Before.ToSun - Now.ToSun))});
+	double Change = std::max(
+	    {GetValuesChange(Before.Values, Now.Values), GetAxesChange(Before.Axes, Now.Axes), double(glm::length(Before.ToSun - Now.ToSun))});
 	for (int I = 0; I < 3; ++I)
 	{
 		Change = std::max({Change, GetRelativeChange(Before.SunIrradiance[I], Now.SunIrradiance[I]),

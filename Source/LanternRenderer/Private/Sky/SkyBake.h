@@ -57,12 +57,12 @@ private:
 	IRTDevice& Device;
 	TRTRef<IRTSampler> Sampler;
 	FMap Baked, Shown;
-	FSkyData Round{}; ///< what the tiles of Baked get
-	double Done = 1.0; ///< share of the round's tiles
-	double FadeLeft = 0.0; ///< seconds
-	FAddress Data = 0;     ///< of this frame
-	uint64_t LastWorld = 0; ///< identity of its scene's sections
-	bool bUsed = false;    ///< this frame shows the map
+	FSkyData Round{};                     ///< what the tiles of Baked get
+	double Done = 1.0;                    ///< share of the round's tiles
+	double FadeLeft = 0.0;                ///< seconds
+	FAddress Data = 0;                    ///< of this frame
+	uint64_t LastWorld = 0;               ///< identity of its scene's sections
+	bool bUsed = false;                   ///< this frame shows the map
 	uint32_t TurnView = 0, TurnFrame = 0; ///< the view whose frames the time is taken from, and its last one
 };
 

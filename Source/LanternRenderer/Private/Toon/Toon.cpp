@@ -13,8 +13,6 @@ TRTConsoleVariable<bool> CVarToon(
 TRTConsoleVariable<bool> CVarKnee(
     "r.RT.Debug.GI.ToonKnee", true, "Planted fault. If off, limits of toon styles cut light off with a kink.");
 
-FShaderSource MakeSurfaceSource() { return MakeComputeSource("Toon/ToonSurface.comp"); }
-
 FShaderSource MakeGradeSource(bool bReference)
 {
 	FShaderDefines Defines;
@@ -42,12 +40,14 @@ void DeclareGrade(FPassBuilder& Builder, const FFrameContext& Context, const FGB
 }
 } // namespace
 
+FShaderSource MakeToonSurfaceSource() { return MakeComputeSource("Toon/ToonSurface.comp"); }
+
 bool AreToonStylesOn() { return CVarToon.GetOnRenderThread(); }
 
 void ListToonShaders(const FSceneFacts& Facts, bool bReference, std::vector<FShaderSource>& Out)
 {
 	if (!Facts.bToon || !AreToonStylesOn()) { return; }
-	Out.push_back(MakeSurfaceSource());
+	Out.push_back(MakeToonSurfaceSource());
 	Out.push_back(MakeGradeSource(bReference));
 }
 
@@ -62,7 +62,7 @@ FGBuffer RequireToonSurface(FFrameContext& Context, const FGBuffer& GBuffer)
 	const FGraphTexture Numbers = GBuffer.ToonNumbers;
 	const FGraphTexture Motion = !Numbers.IsValid() && GBuffer.bNamesObjects ? GBuffer.Motion : FGraphTexture();
 	if (!Context.Facts.bToon || !AreToonStylesOn() || (!Numbers.IsValid() && !Motion.IsValid())) { return GBuffer; }
-	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSurfaceSource());
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeToonSurfaceSource());
 	if (!Pipeline) { return GBuffer; }
 	const FFrameContext* const Frame = &Context;
 	FToonOfFrame& Toon = Context.Toon;

@@ -9,6 +9,8 @@ namespace Lantern
 /// r.RT.GI.Toon.
 bool AreToonStylesOn();
 
+FShaderSource MakeToonSurfaceSource();
+
 /// Lists the shaders of both passes below, if the scene has styles. bReference: those of the reference.
 void ListToonShaders(const FSceneFacts& Facts, bool bReference, std::vector<FShaderSource>& Out);
 
@@ -22,5 +24,10 @@ FGBuffer RequireToonSurface(FFrameContext& Context, const FGBuffer& GBuffer);
 FGraphTexture AddToonGrade(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture Signal, bool bHorizon, bool bFiltered);
 /// Does so in the sum of the reference, FReferenceConstants::Sum.
 void AddToonReferenceGrade(FFrameContext& Context, const FGBuffer& GBuffer, FGraphBuffer Sum);
+
+/// Returns the G-buffer as reflections take it: other BaseColor and Material on objects with a style, after RequireToonSurface of this
+/// frame. FullRoughness: the greatest that does not fade out. GBuffer itself: as RequireToonSurface.
+FGBuffer AddToonReflections(FFrameContext& Context, const FGBuffer& GBuffer, float FullRoughness);
+void ListToonReflectionShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out);
 
 } // namespace Lantern
