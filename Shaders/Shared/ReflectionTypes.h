@@ -92,6 +92,20 @@ struct FReflectionCombineConstants
 };
 LANTERN_ASSERT_SIZE(FReflectionCombineConstants, 56);
 
+// Constants of Reflections/Toon.comp.
+struct FReflectionToonConstants
+{
+	FPassConstants Pass;
+	FReflectionPixels Pixels;
+	uint ToonPixels;                // sampled index of what ToonSurface.comp writes
+	uint OutBaseColor, OutMaterial; // storage indices
+	float Threshold;                // metalness above which there are reflections
+	float MinRoughness, MaxRoughness;
+	float Tint; // share of the metal's colour in the reflection's, 0 to 1
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FReflectionToonConstants, 64);
+
 LANTERN_SHARED_END
 
 #endif

@@ -33,19 +33,6 @@ struct FToonGradeConstants
 };
 LANTERN_ASSERT_SIZE(FToonGradeConstants, 56);
 
-struct FToonReflectionsConstants
-{
-	FPassConstants Pass;
-	uint Depth, Normals, BaseColor, Material; // sampled indices
-	uint Pixels;                              // sampled index, as above
-	uint OutBaseColor, OutMaterial;           // storage indices
-	float Threshold;                          // metalness above which there are reflections
-	float MinRoughness, MaxRoughness;
-	float Tint; // share of the metal's colour in the reflection's, 0 to 1
-	uint Pad;
-};
-LANTERN_ASSERT_SIZE(FToonReflectionsConstants, 64);
-
 LANTERN_SHARED_END
 
 #endif

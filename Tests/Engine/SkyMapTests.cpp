@@ -167,7 +167,8 @@ TEST_F(FSkyMapTest, AProgramIsTheSkyThatAMapOfItIs)
 	const FSignalPicture Mapped = RenderSky(&Cube);
 	const FTemporaryFolder Folder;
 	const std::string File = Folder / "OwnSky.glsl";
-	std::ofstream(File) << "vec3 EvaluateSky(vec3 Direction, FSkyData Sky) { return vec3(Sky.Values[0].x + Sky.Values[15].w * Direction.x); }";
+	std::ofstream(File)
+	    << "vec3 EvaluateSky(vec3 Direction, FSkyData Sky) { return vec3(Sky.Values[0].x + Sky.Values[15].w * Direction.x); }";
 	RendererDesc.SkyShader = File.c_str();
 	FRTModuleSkyProgram Program;
 	Program.Values[0] = Mean;

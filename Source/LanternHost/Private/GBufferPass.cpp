@@ -218,7 +218,10 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 		for (uint32_t I = 0; I < ColorCount; ++I) { Builder.Write(Targets[I], ERTAccess::RenderTarget); }
 		Builder.Write(Out.Depth, ERTAccess::DepthWrite);
 		Builder.RecordOnTask();
-		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records, Context.Tokens.Sky}) { Builder.Without(Unused); }
+		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records, Context.Tokens.Sky})
+		{
+			Builder.Without(Unused);
+		}
 		return [=, this, &Scene](FPassContext& Pass) {
 			std::array<FRTColorTarget, ColorFormats.size()> Colors;
 			for (uint32_t I = 0; I < ColorCount; ++I) { Colors[I].Texture = Pass.GetTexture(Targets[I]); }

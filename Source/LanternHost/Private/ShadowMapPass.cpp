@@ -182,7 +182,10 @@ void FShadowMapPass::AddCascade(FFrameContext& Context, FHostScene& Scene, const
 	FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("HostShadowMap", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(Map, ERTAccess::DepthWrite);
-		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records, Context.Tokens.Sky}) { Builder.Without(Unused); }
+		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records, Context.Tokens.Sky})
+		{
+			Builder.Without(Unused);
+		}
 		return [=, this, &Scene, &Draws](FPassContext& Pass) {
 			FRTRasterPassDesc Desc;
 			Desc.Depth = Pass.GetTexture(Map);

@@ -154,8 +154,8 @@ FRTStatus FModule::CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc
 		if (Path == nullptr) { continue; }
 		if (!std::filesystem::path(Path).is_absolute() || !std::filesystem::is_regular_file(Path))
 		{
-			return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleRendererDesc::%s is no absolute path of a file: \"%s\"", Name,
-			    FRTShown(Path).Text);
+			return FRTStatus::Error(
+			    ERTResult::InvalidArgument, "FRTModuleRendererDesc::%s is no absolute path of a file: \"%s\"", Name, FRTShown(Path).Text);
 		}
 		Renderer.ShaderHeaders.push_back(MakeHeader(Path));
 	}

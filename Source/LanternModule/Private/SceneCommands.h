@@ -129,7 +129,6 @@ struct FLightCommand
 
 using FSceneCommand = std::variant<FMaterialCommand, FAddMeshCommand, FRemoveMeshCommand, FAddObjectCommand, FRemoveObjectCommand,
     FTransformCommand, FMaskCommand, FChannelsCommand, FToonCommand, FObjectMaterialsCommand, FObjectMeshCommand, FVerticesCommand,
-    FDeformedCommand, FProfileCommand, FLightCommand, FSunLight, FSkyCommand, FSkyMapCommand,
-    FSkyProgramCommand>;
+    FDeformedCommand, FProfileCommand, FLightCommand, FSunLight, FSkyCommand, FSkyMapCommand, FSkyProgramCommand>;
 
 } // namespace Lantern

@@ -166,8 +166,7 @@ FRayPrograms ChooseRayPrograms(
 	const FSceneFacts Facts = AddFrameFacts(Scene.GetFacts(), Features, Requests);
 	if (Features.bReference)
 	{
-		Collector.Add(ESignal::Frame,
-		    ChooseReferenceRays(Capabilities, Facts, Features.ReferenceSignal, Features.bReferenceFromGBuffer),
+		Collector.Add(ESignal::Frame, ChooseReferenceRays(Capabilities, Facts, Features.ReferenceSignal, Features.bReferenceFromGBuffer),
 		    GetReferencePath(Features.ReferenceSignal));
 		if (Features.bReferenceFromGBuffer)
 		{

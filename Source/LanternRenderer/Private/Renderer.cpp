@@ -24,8 +24,8 @@
 #include "Rays/RayQueueCounter.h"
 #include "Rays/RayQueueDemand.h"
 #include "SignalPasses.h"
-#include "Sky/SkyBake.h"
 #include "Skinning/RefitQuality.h"
+#include "Sky/SkyBake.h"
 #include "Tiles/MovedCasters.h"
 
 namespace Lantern
@@ -190,9 +190,8 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->Owner = this;
 	Context->QueueDemand = QueueDemand.get();
 	Context->RayCounter = RayCounter.get();
-	Context->Tokens = {
-	    Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"), Graph->CreateToken("Records"),
-	    Graph->CreateToken("Sky")};
+	Context->Tokens = {Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"),
+	    Graph->CreateToken("Records"), Graph->CreateToken("Sky")};
 	Context->bWaitForPipelines = WaitsForPipelines(Features);
 	Pipelines.BeginFrame();
 	FindPreviousView(Scene, Features);

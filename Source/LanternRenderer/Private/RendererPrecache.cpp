@@ -50,7 +50,7 @@ bool FRenderer::FollowsMotion(FRTScene& Scene, const FFrameFeatures& Features) {
 FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
 {
 	FRayPrograms Wanted = ChoosePrograms(Scene, Features);
-	if (!Features.bReference && !Features.Signals.bNothingElse) 
+	if (!Features.bReference && !Features.Signals.bNothingElse)
 	{
 		ListCompositeShaders(AddFrameFacts(Scene.GetFacts(), Features, CompleteRequests(Features.Signals)), Wanted.Compute);
 	}

@@ -9,6 +9,7 @@
 #include "LocalLights/LampView.h"
 #include "LocalLights/LocalLights.h"
 #include "RadianceCells/RadianceCellsView.h"
+#include "Reflections/ReflectingToon.h"
 #include "Reflections/Reflections.h"
 #include "SunShadow/SunShadow.h"
 #include "Tiles/TileView.h"
@@ -49,7 +50,9 @@ constexpr FSignalPass Passes[] = {
         .WantsMotion = AreReflectionsFiltered,
         .bFollowsHits = true,
         .ListFilters = ListReflectionFilters,
-        .EmissionIn = ESignal::LocalSpecular},
+        .EmissionIn = ESignal::LocalSpecular,
+        .AddSurface = AddReflectingSurface,
+        .ListSurfaceShaders = ListReflectingToonShaders},
     {.Signal = ESignal::LocalDiffuse,
         .ChooseRays = ChooseLocalLightRays,
         .Add = AddLocalDiffusePass,

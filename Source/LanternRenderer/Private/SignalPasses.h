@@ -35,6 +35,10 @@ struct FSignalPass
 	bool bBesideLightMask = false;
 	/// Its surfaces are those of RequireToonSurface (Toon/Toon.h).
 	bool bStyled = false;
+	/// Returns the surfaces of the signal's reference, of the G-buffer. Null: the G-buffer itself, or as bStyled says.
+	FGBuffer (*AddSurface)(FFrameContext& Context, const FGBuffer& GBuffer) = nullptr;
+	/// Lists the shaders of AddSurface. Null: none.
+	void (*ListSurfaceShaders)(const FSceneFacts& Facts, std::vector<FShaderSource>& Out) = nullptr;
 	/// It shows what AddToonGrade makes of its light.
 	bool bToonGraded = false;
 	/// Fills what the signal's reference reads of the constants beside the rest. Null: nothing.

@@ -111,7 +111,7 @@ FMeshBuilder MakeBody(FSceneBuilder& Builder, const std::string& Name, const FLo
 	const glm::vec2 Hem[] = {{0.345f, 0.4f}, {0.35f, 0.43f}, {0.34f, 0.45f}};
 	Body.AddLathe(Hem, 48);
 	Body.BeginSection(AddGold(Builder));
-	AddEllipsoid(Body, {0, 1.08f, 0.135f}, {0.034f, 0.034f, 0.016f}, 4); // brooch
+	AddEllipsoid(Body, {0, 1.08f, 0.135f}, {0.034f, 0.034f, 0.016f}, 4);  // brooch
 	AddEllipsoid(Body, {0, 0.885f, 0.128f}, {0.034f, 0.024f, 0.014f}, 4); // buckle
 	const glm::vec2 Belt[] = {{0.122f, 0.86f}, {0.128f, 0.88f}, {0.122f, 0.91f}};
 	Body.AddLathe(Belt, 48);

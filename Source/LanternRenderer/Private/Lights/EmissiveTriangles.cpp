@@ -62,7 +62,10 @@ FRTStatus AddEmissivePass(FFrameContext& Context, FFrameUploads& Uploads)
 		Builder.RecordOnTask();
 		Builder.AllowAsync();
 		Builder.Write(Context.Tokens.Tables); // as part of which passes read them
-		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records, Context.Tokens.Sky}) { Builder.Without(Unused); }
+		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records, Context.Tokens.Sky})
+		{
+			Builder.Without(Unused);
+		}
 		return [=, Triangles = Work.Triangles, Powers = Work.Powers, Bounds = Work.Bounds](FPassContext& Pass) {
 			IRTCommandList& List = Pass.Commands();
 			const FRTBarrier Before[] = {{Triangles, nullptr, ERTAccess::ShaderRead, Written},

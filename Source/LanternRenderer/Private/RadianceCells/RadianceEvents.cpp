@@ -115,8 +115,8 @@ bool AreIndirectChangesTold() { return CVarEvents.GetOnRenderThread(); }
 FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds)
 {
 	const FSunLight& Sun = Scene.GetSun();
-	Next = {Scene.GetSections().GetIdentity(), glm::normalize(Sun.Direction), Sun.Color * Sun.Irradiance, Scene.GetSky(), Scene.GetSkyProgram(),
-	    Scene.GetLights().GetStrengthChanges().GetCount(), Scene.GetAppearanceChanges().GetObjects().GetCount(),
+	Next = {Scene.GetSections().GetIdentity(), glm::normalize(Sun.Direction), Sun.Color * Sun.Irradiance, Scene.GetSky(),
+	    Scene.GetSkyProgram(), Scene.GetLights().GetStrengthChanges().GetCount(), Scene.GetAppearanceChanges().GetObjects().GetCount(),
 	    Scene.GetAppearanceChanges().GetEverywhere(), true};
 	Delta = double(DeltaSeconds);
 	Fresh.clear();

@@ -4,7 +4,6 @@
 #include "Lights/PixelChannels.h"
 #include "LocalLights/Emitters.h"
 #include "ReferenceTypes.h"
-#include "Reflections/Reflections.h"
 #include "SignalPasses.h"
 #include "Toon/Toon.h"
 
@@ -39,7 +38,7 @@ std::vector<FShaderSource> ListReferenceComputeShaders(const FSceneFacts& Facts,
 	std::vector<FShaderSource> Out;
 	if (Facts.bLightChannels) { Out.push_back(MakePixelChannelsSource()); }
 	if (IsStyled(Signal)) { ListToonShaders(Facts, true, Out); }
-	if (Signal == ESignal::Reflections) { ListToonReflectionShaders(Facts, Out); }
+	if (Signal != ESignal::Frame && GetSignalPass(Signal).ListSurfaceShaders) { GetSignalPass(Signal).ListSurfaceShaders(Facts, Out); }
 	return Out;
 }
 
@@ -64,10 +63,11 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 	Context.RequireRays();
 	const FGraphTexture Channels = RequirePixelChannels(Context, Inputs.GBuffer);
 	const bool bStyled = Inputs.GBuffer.Depth.IsValid() && IsStyled(Inputs.Signal);
-	const bool bReflects = Inputs.GBuffer.Depth.IsValid() && Inputs.Signal == ESignal::Reflections;
-	const FGBuffer G = bStyled     ? RequireToonSurface(Context, Inputs.GBuffer)
-	                   : bReflects ? AddReflectingSurface(Context, Inputs.GBuffer)
-	                               : Inputs.GBuffer;
+	const auto AddSurface =
+	    Inputs.GBuffer.Depth.IsValid() && Inputs.Signal != ESignal::Frame ? GetSignalPass(Inputs.Signal).AddSurface : nullptr;
+	const FGBuffer G = bStyled      ? RequireToonSurface(Context, Inputs.GBuffer)
+	                   : AddSurface ? AddSurface(Context, Inputs.GBuffer)
+	                                : Inputs.GBuffer;
 	const FGraphTexture Toon = bStyled ? Context.Toon.Pixels : FGraphTexture();
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("PathTrace", [&](FPassBuilder& Builder) -> FPassExecute {

@@ -71,12 +71,6 @@ FReflectionFade GetFade(float MaxRoughness)
 	return {End, 1.0f / (End - Start)};
 }
 
-FReflectionPixels GetPixels(FPassContext& Pass, const FGBuffer& GBuffer)
-{
-	return {GetSampledIndex(Pass, GBuffer.Depth), GetSampledIndex(Pass, GBuffer.Normals), GetSampledIndex(Pass, GBuffer.BaseColor),
-	    GetSampledIndex(Pass, GBuffer.Material)};
-}
-
 void DeclarePixels(FPassBuilder& Builder, const FGBuffer& GBuffer)
 {
 	for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, GBuffer.BaseColor, GBuffer.Material})
@@ -122,7 +116,7 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 		return [=, MaxRoughness = Paths.Settings.MaxRoughness](FPassContext& Pass) {
 			FReflectionListConstants C{};
 			C.Pass = Frame->Pass;
-			C.Pixels = GetPixels(Pass, GBuffer);
+			C.Pixels = GetReflectionPixels(Pass, GBuffer);
 			C.Radiance = GetStorageIndex(Pass, Paths.Radiance);
 			C.Mirrored = GetStorageIndex(Pass, Paths.Mirrored);
 			C.Surface = GetStorageIndex(Pass, Paths.Shown.Current);
@@ -152,7 +146,7 @@ void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths&
 		return [=, Samples = Paths.Settings.Samples, FullRoughness = GetFullRoughness(Paths.Settings.MaxRoughness)](FPassContext& Pass) {
 			FReflectionPathConstants C{};
 			C.Pass = Frame->Pass;
-			C.Pixels = GetPixels(Pass, GBuffer);
+			C.Pixels = GetReflectionPixels(Pass, GBuffer);
 			C.Radiance = GetStorageIndex(Pass, Paths.Radiance);
 			C.Mirrored = GetStorageIndex(Pass, Paths.Mirrored);
 			C.SamplesPerPixel = Samples;
@@ -185,7 +179,7 @@ void AddSurfacePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 		return [=](FPassContext& Pass) {
 			FReflectionSurfaceConstants C{};
 			C.Pass = Frame->Pass;
-			C.Pixels = GetPixels(Pass, GBuffer);
+			C.Pixels = GetReflectionPixels(Pass, GBuffer);
 			C.Motion = GetSampledIndex(Pass, GBuffer.Motion);
 			C.bNamesObjects = GBuffer.bNamesObjects ? 1 : 0;
 			C.PreviousSurface = GetSampledIndex(Pass, Paths.Shown.Previous);
@@ -213,7 +207,7 @@ FGraphTexture AddCombinePass(FFrameContext& Context, const FGBuffer& GBuffer, co
 		return [=, MaxRoughness = Paths.Settings.MaxRoughness](FPassContext& Pass) {
 			FReflectionCombineConstants C{};
 			C.Pass = Frame->Pass;
-			C.Pixels = GetPixels(Pass, GBuffer);
+			C.Pixels = GetReflectionPixels(Pass, GBuffer);
 			C.Radiance = GetSampledIndex(Pass, Radiance);
 			C.Mirrored = GetSampledIndex(Pass, Paths.Mirrored);
 			C.Output = GetStorageIndex(Pass, Output);
@@ -224,6 +218,12 @@ FGraphTexture AddCombinePass(FFrameContext& Context, const FGBuffer& GBuffer, co
 	return Output;
 }
 } // namespace
+
+FReflectionPixels GetReflectionPixels(FPassContext& Pass, const FGBuffer& GBuffer)
+{
+	return {GetSampledIndex(Pass, GBuffer.Depth), GetSampledIndex(Pass, GBuffer.Normals), GetSampledIndex(Pass, GBuffer.BaseColor),
+	    GetSampledIndex(Pass, GBuffer.Material)};
+}
 
 float GetFullRoughness(float MaxRoughness) { return MaxRoughness < 1.0f ? std::max(MaxRoughness - Fade, MirrorRoughness) : 1.0f; }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "RayPath.h"
+#include "ReflectionTypes.h"
 
 namespace Lantern
 {
@@ -17,6 +18,8 @@ struct FReflectionPathSettings
 /// Returns the roughness up to which reflections count in full. From there on they fade out: neither materials nor textures show where they
 /// end. Mirrors always count.
 float GetFullRoughness(float MaxRoughness);
+/// Returns the sampled indices of the G-buffer.
+FReflectionPixels GetReflectionPixels(FPassContext& Pass, const FGBuffer& GBuffer);
 FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const FPassQuery& Query);
 bool AreReflectionPathsFiltered();
 void ListReflectionPathFilters(std::vector<FShaderSource>& Out);

@@ -2,9 +2,9 @@
 #include "Reflections/Reflections.h"
 
 #include "BruteForce/BruteForce.h"
+#include "Reflections/ReflectingToon.h"
 #include "Reflections/ReflectionPaths.h"
 #include "SignalPasses.h"
-#include "Toon/Toon.h"
 
 namespace Lantern
 {
@@ -69,13 +69,13 @@ float GetReflectedRoughnessInReference()
 FPassRays ChooseReflectionsRays(const FPassQuery& Query)
 {
 	FPassRays Rays = IsPathRoute() ? ChooseReflectionPaths(GetPathSettings(Query), Query) : ChooseBruteForceRays(BruteForce, Query);
-	if (Rays.Path != ERayPath::None) { ListToonReflectionShaders(Query.Facts, Rays.Compute); }
+	if (Rays.Path != ERayPath::None) { ListReflectingToonShaders(Query.Facts, Rays.Compute); }
 	return Rays;
 }
 
 FGBuffer AddReflectingSurface(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	return AddToonReflections(Context, GBuffer, GetEmissionRoughness());
+	return AddReflectingToon(Context, GBuffer, GetEmissionRoughness());
 }
 
 bool AreReflectionsFiltered(const FRTScene&) { return IsPathRoute() && AreReflectionPathsFiltered(); }

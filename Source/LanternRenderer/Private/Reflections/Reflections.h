@@ -13,7 +13,7 @@ float GetReflectedRoughness(const FPassQuery& Query);
 float GetReflectedRoughnessInReference();
 bool AreReflectionsFiltered(const FRTScene&);
 void ListReflectionFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out);
-/// Returns the surfaces that reflect: the G-buffer, but for objects with a style (AddToonReflections).
+/// Returns the surfaces that reflect: the G-buffer, but for objects with a style (AddReflectingToon).
 FGBuffer AddReflectingSurface(FFrameContext& Context, const FGBuffer& GBuffer);
 /// Later calls of a frame return what the first one did.
 FGraphTexture AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer);

@@ -25,9 +25,4 @@ FGraphTexture AddToonGrade(FFrameContext& Context, const FGBuffer& GBuffer, FGra
 /// Does so in the sum of the reference, FReferenceConstants::Sum.
 void AddToonReferenceGrade(FFrameContext& Context, const FGBuffer& GBuffer, FGraphBuffer Sum);
 
-/// Returns the G-buffer as reflections take it: other BaseColor and Material on objects with a style, after RequireToonSurface of this
-/// frame. FullRoughness: the greatest that does not fade out. GBuffer itself: as RequireToonSurface.
-FGBuffer AddToonReflections(FFrameContext& Context, const FGBuffer& GBuffer, float FullRoughness);
-void ListToonReflectionShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out);
-
 } // namespace Lantern

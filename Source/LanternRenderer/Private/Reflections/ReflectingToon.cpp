@@ -1,7 +1,11 @@
-// Reflections of objects with a style.
+// Reflections of objects with a toon style.
+#include "Reflections/ReflectingToon.h"
+
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "ReflectionTypes.h"
+#include "Reflections/ReflectionPaths.h"
+#include "TileTypes.h"
 #include "Toon/Toon.h"
-#include "ToonTypes.h"
 
 namespace Lantern
 {
@@ -22,19 +26,19 @@ TRTConsoleVariable<float> CVarMaxRoughness("r.RT.Reflections.Toon.MaxRoughness",
 TRTConsoleVariable<float> CVarTint("r.RT.Reflections.Toon.Tint", 1.0f,
     "Share of a metal's colour in its reflection, on objects with a toon style. 0: reflections have no colour of their own.", {0, 1});
 
-FShaderSource MakeSource() { return MakeComputeSource("Toon/ToonReflections.comp"); }
+FShaderSource MakeSource() { return MakeComputeSource("Reflections/Toon.comp"); }
 
 bool AreOn(const FSceneFacts& Facts) { return Facts.bToon && AreToonStylesOn() && CVarToon.GetOnRenderThread(); }
 } // namespace
 
-void ListToonReflectionShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out)
+void ListReflectingToonShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out)
 {
 	if (!AreOn(Facts)) { return; }
 	Out.push_back(MakeToonSurfaceSource());
 	Out.push_back(MakeSource());
 }
 
-FGBuffer AddToonReflections(FFrameContext& Context, const FGBuffer& GBuffer, float FullRoughness)
+FGBuffer AddReflectingToon(FFrameContext& Context, const FGBuffer& GBuffer, float FullRoughness)
 {
 	const bool bSurface = GBuffer.BaseColor.IsValid() && GBuffer.Material.IsValid();
 	IRTPipeline* const Pipeline = AreOn(Context.Facts) && bSurface ? RequireCompute(Context, MakeSource()) : nullptr;
@@ -44,10 +48,10 @@ FGBuffer AddToonReflections(FFrameContext& Context, const FGBuffer& GBuffer, flo
 	if (!Toon.IsValid()) { return GBuffer; }
 	FGBuffer Styled = GBuffer;
 	// Eight linear bits would show steps in what is dark.
-	Styled.BaseColor = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, "ToonReflectedColor");
-	Styled.Material = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "ToonReflectedMaterial");
+	Styled.BaseColor = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, "ReflectingColor");
+	Styled.Material = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "ReflectingMaterial");
 	const FFrameContext* const Frame = &Context;
-	Context.Graph.AddPass("ToonReflections", [&](FPassBuilder& Builder) -> FPassExecute {
+	Context.Graph.AddPass("ReflectionsToon", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, GBuffer.BaseColor, GBuffer.Material, Toon.Pixels})
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
@@ -55,20 +59,17 @@ FGBuffer AddToonReflections(FFrameContext& Context, const FGBuffer& GBuffer, flo
 		for (const FGraphTexture Texture : {Styled.BaseColor, Styled.Material}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			FToonReflectionsConstants C{};
+			FReflectionToonConstants C{};
 			C.Pass = Frame->Pass;
-			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
-			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
-			C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
-			C.Material = GetSampledIndex(Pass, GBuffer.Material);
-			C.Pixels = GetSampledIndex(Pass, Toon.Pixels);
+			C.Pixels = GetReflectionPixels(Pass, GBuffer);
+			C.ToonPixels = GetSampledIndex(Pass, Toon.Pixels);
 			C.OutBaseColor = GetStorageIndex(Pass, Styled.BaseColor);
 			C.OutMaterial = GetStorageIndex(Pass, Styled.Material);
 			C.Threshold = CVarThreshold.GetOnRenderThread();
 			C.Tint = CVarTint.GetOnRenderThread();
 			C.MaxRoughness = std::min(CVarMaxRoughness.GetOnRenderThread(), FullRoughness);
 			C.MinRoughness = std::min(CVarMinRoughness.GetOnRenderThread(), C.MaxRoughness);
-			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TOON_GROUP_SIZE);
+			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
 	return Styled;
