@@ -24,7 +24,8 @@ void main()
 		BaseColor = vec4(0.0);
 		if (Strength > Push.Threshold)
 		{
-			// A metal of the colour by which this view of it reflects Strength · Colors: no Fresnel term shows.
+			// A metal of the colour by which this view of it reflects Strength · Colors. No Fresnel term shows, but where the colour is
+			// darker than what any metal reflects at a grazing angle.
 			FGBufferPoint Point = LoadGBufferPoint(View, Push.Pixels.Normals, Pixel, Depth);
 			vec2 Albedo = SpecularAlbedo(clamp(dot(Point.BentN, Point.V), 0.0, 1.0), Material.x);
 			BaseColor = vec4(clamp((Strength * Colors - Albedo.y) / max(Albedo.x - Albedo.y, 1.0e-3), vec3(0.0), vec3(1.0)), 1.0);

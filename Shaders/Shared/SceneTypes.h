@@ -267,6 +267,7 @@ LANTERN_ASSERT_SIZE(FToonData, 48);
 
 #define SKY_MAP_CUBE 0u
 #define SKY_MAP_OCTAHEDRAL 1u
+#define SKY_MAP_ROOTS 2u // octahedral, of square roots of nits: half floats then hold moonless nights and blinding suns
 
 // Constants of the scene, one block a frame.
 struct FSceneConstants

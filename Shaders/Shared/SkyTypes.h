@@ -30,18 +30,18 @@ struct FSkyBakeConstants
 	uint Output;  // storage index
 	uint Size;    // texels of the map, in each direction
 	uint FirstTile;
-	float PerTexel; // what a texel of 1 means is divided by: 1 / nits
+	uint Pad;
 };
 LANTERN_ASSERT_SIZE(FSkyBakeConstants, 24);
 
 struct FSkyFadeConstants
 {
-	uint Baked, Shown; // sampled indices
-	uint Output;       // storage index of Shown
+	uint Baked; // sampled index
+	uint Shown; // storage index
 	uint Size;
-	float OfBaked, OfShown; // Shown = OfBaked · Baked + OfShown · Shown; OfShown 0: it is not read
+	float Share; // of Baked in what is shown then; 1: what was shown is not read
 };
-LANTERN_ASSERT_SIZE(FSkyFadeConstants, 24);
+LANTERN_ASSERT_SIZE(FSkyFadeConstants, 16);
 
 LANTERN_SHARED_END
 

@@ -1,4 +1,4 @@
-// Bakes tiles of the sky's octahedral map.
+// Bakes tiles of the sky's map: SKY_MAP_ROOTS.
 #version 460
 #include "RunSkyProgram.glsl"
 
@@ -11,5 +11,6 @@ void main()
 	uvec2 Texel = uvec2(Tile % TilesInRow, Tile / TilesInRow) * SKY_TILE_SIZE + gl_GlobalInvocationID.xy;
 	if (any(greaterThanEqual(Texel, uvec2(Push.Size)))) { return; }
 	vec3 Direction = OctDecode((vec2(Texel) + 0.5) * (2.0 / float(Push.Size)) - 1.0);
-	imageStore(Images[Push.Output], ivec2(Texel), vec4(min(RunSkyProgram(Push.Sky, Direction) * Push.PerTexel, vec3(65504.0)), 1.0));
+	vec3 Roots = min(sqrt(RunSkyProgram(Push.Sky, Direction)), vec3(65504.0));
+	imageStore(Images[Push.Output], ivec2(Texel), RoundToHalf(vec4(Roots, 1.0)));
 }

@@ -16,7 +16,8 @@ vec3 RunSkyProgram(FAddress SkyData, vec3 Direction)
 	FSkyData Sky = FSkyDataRef(SkyData).Data;
 	vec3 Seen = vec3(dot(Sky.Axes[0], Direction), dot(Sky.Axes[1], Direction), dot(Sky.Axes[2], Direction));
 	vec3 L = EvaluateSky(Seen, Sky);
-	return vec3(L.x > 0.0 ? min(L.x, 1.0e30) : 0.0, L.y > 0.0 ? min(L.y, 1.0e30) : 0.0, L.z > 0.0 ? min(L.z, 1.0e30) : 0.0);
+	const float Most = 1.0e30;
+	return vec3(L.x > 0.0 && L.x < Most ? L.x : 0.0, L.y > 0.0 && L.y < Most ? L.y : 0.0, L.z > 0.0 && L.z < Most ? L.z : 0.0);
 }
 
 #endif

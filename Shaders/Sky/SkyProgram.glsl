@@ -52,6 +52,9 @@ vec2 MeetLayer(vec3 Direction, float Height)
 	return Direction.xz * Distance;
 }
 
+// Share of the sun's light that reaches the air.
+float DayShare(FSkyData Sky) { return smoothstep(-0.1, 0.1, Sky.ToSun.y); }
+
 // Radiance without clouds, above the horizon.
 vec3 ClearSky(vec3 Direction, FSkyData Sky)
 {
@@ -61,7 +64,7 @@ vec3 ClearSky(vec3 Direction, FSkyData Sky)
 	vec3 L = Sky.Radiance * mix(Horizon, vec3(0.55, 0.85, 1.45), 1.0 - pow(1.0 - Up, 4.0));
 	// Haze scatters forward: Henyey and Greenstein 1941, g = 0.8.
 	float Haze = 0.36 / (4.0 * Pi * pow(max(1.64 - 1.6 * Towards, 1.0e-3), 1.5));
-	return L + Sky.SunIrradiance * (0.04 * Haze * mix(1.0, 3.0, Low));
+	return L + Sky.SunIrradiance * (DayShare(Sky) * 0.04 * Haze * mix(1.0, 3.0, Low));
 }
 
 // Adds a layer of clouds in front of what Behind says.
@@ -73,7 +76,7 @@ vec3 AddClouds(vec3 Direction, vec3 Behind, FSkyData Sky, float Height, float Sc
 	// Thickness towards the sun, by one more look: light that is left after it.
 	vec2 Aside = Sky.ToSun.xz / max(abs(Sky.ToSun.y), 0.2) * (0.25 * Height / Scale) * 0.3;
 	float Lit = exp(-2.5 * CloudDensity(P + Aside, Cover, max(Octaves - 2, 2)) * Density);
-	float Day = smoothstep(-0.1, 0.1, Sky.ToSun.y), Forward = pow(max(dot(Direction, Sky.ToSun), 0.0), 16.0);
+	float Day = DayShare(Sky), Forward = pow(max(dot(Direction, Sky.ToSun), 0.0), 16.0);
 	vec3 Light = Sky.Radiance * (0.6 + 0.5 * Lit) + Sky.SunIrradiance * (Day * Lit * (0.12 + 0.25 * Forward * (1.0 - 0.7 * Density)));
 	float Alpha = Density * smoothstep(0.0, 0.12, Direction.y); // haze hides those at the horizon
 	return mix(Behind, Light, 0.95 * Alpha);

@@ -177,6 +177,52 @@ TEST_F(FSkyProgramTest, ASunThatJumpsIsFollowedAtOnce)
 	EXPECT_LT(MeanOff(Now, RenderInPlace()), 0.05) << "the fade lags by 0.25 s, which is 8 degrees of the sun's way here";
 }
 
+// A program's brightness is its own: neither the sun nor the uniform sky says how bright its map must be able to be.
+TEST_F(FSkyProgramTest, TheMapHoldsNightsAndSuns)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadMirror());
+	for (const float Brightness : {1.0e-4f, 1.0e8f})
+	{
+		SetSky(Brightness * glm::vec3(0.4f, 0.5f, 0.7f));
+		SetSun(0.5, 0.0f);
+		FImage Now;
+		for (int Frame = 0; Frame < 17; ++Frame) { Now = RenderMirror(); }
+		const double Most = Brightness > 1.0f ? 65504.0 : 1.0e30; // of the signal's half floats
+		double Off = 0.0, Of = 0.0;
+		const FImage InPlace = RenderInPlace();
+		for (size_t I = 0; I < Now.Pixels.size(); ++I)
+		{
+			Off += std::abs(double(Now.Pixels[I]) - std::min(double(InPlace.Pixels[I]), Most));
+			Of += double(Now.Pixels[I]);
+		}
+		EXPECT_LT(Off, 0.004 * Of) << Brightness;
+		EXPECT_GT(Of, 0.0);
+	}
+}
+
+// What shaders of a frame before may still ask for must be there.
+TEST_F(FSkyProgramTest, AProgramMayGoWhileItsShadersAreInUse)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadMirror());
+	SetVariable("r.RT.Reflections.Path", "1");
+	SetVariable("r.RT.Sky.Bake", "0");
+	GetEngine().bRealTime = true;
+	FFrameCapture Capture;
+	Capture.Signals.Add(ESignal::Reflections);
+	ASSERT_OK(GetEngine().Precache(Capture, {}));
+	const FImage InPlace = RenderMirror();
+	for (const auto& [Name, Value] : {std::pair("r.Sky.Program", "0"), std::pair("r.Sky.Program", "1"), std::pair("r.RT.Sky.Bake", "1")})
+	{
+		SetVariable(Name, Value);
+		for (int Frame = 0; Frame < 3; ++Frame)
+		{
+			for (const float Pixel : RenderMirror().Pixels) { ASSERT_TRUE(std::isfinite(Pixel)) << Name; }
+		}
+	}
+	GetEngine().bRealTime = false;
+	EXPECT_LT(MeanOff(RenderMirror(), InPlace), 0.004);
+}
+
 class FOwnSkyTest : public FSkyProgramTest
 {
 protected:
@@ -232,8 +278,11 @@ vec3 EvaluateSky(vec3 Direction, FSkyData Sky)
 	}
 	EXPECT_NEAR(double(Sky.At(33, 32, 0)), Up, 0.02);
 	EXPECT_NEAR(double(Mirror.At(33, 32, 0)), Up, 0.02);
-	EXPECT_EQ(Sky.At(10, 32, 0), 0.0f);
-	EXPECT_EQ(Mirror.At(10, 32, 2), 0.0f);
+	for (uint32_t Channel = 0; Channel < 3; ++Channel)
+	{
+		EXPECT_EQ(Sky.At(10, 32, Channel), 0.0f) << Channel;
+		EXPECT_EQ(Mirror.At(10, 32, Channel), 0.0f) << Channel;
+	}
 }
 
 TEST_F(FOwnSkyTest, WhatDoesNotCompileLeavesTheUniformSky)

@@ -1,4 +1,6 @@
 // Reflections of objects with a style: their strength, their roughness, the reference, and that nothing else changes.
+#include <cmath>
+
 #include "Support/RenderFixture.h"
 #include "Support/TestScene.h"
 
@@ -67,6 +69,20 @@ TEST_F(FToonReflectionsTest, MetalIsTheStrength)
 		const FImage Off = Render();
 		EXPECT_NEAR(At(Off, Other, 0) / At(Shown, Other, 0), 1.0, 2e-3) << "colours of other objects are rounded to half floats";
 		EXPECT_NEAR(At(Off, Styled, 0), At(Shown, Other, 0), 0.01);
+	}
+}
+
+// A mirror of metal is as bright as its light at any angle, and so is a painted strength.
+TEST_F(FToonReflectionsTest, StrengthIsThatOfAnyAngle)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPlates(0.95f, 0.2f));
+	SetVariable("r.RT.Reflections.Toon.Tint", "0");
+	for (const double Degrees : {0.0, 45.0, 70.0})
+	{
+		const double Angle = glm::radians(Degrees);
+		const FView View = LookAt({-0.5, 3.0 * std::sin(Angle), 3.0 * std::cos(Angle)}, {-0.5, 0, 0}, 0.1f, Size, Size);
+		const FImage Shown = RenderSignal(ESignal::Reflections, View, 2);
+		EXPECT_NEAR(At(Shown, Size / 2, 1), 0.95, 0.02) << Degrees << " degrees; a G-buffer's roughness and colour have eight bits";
 	}
 }
 

@@ -70,6 +70,7 @@ FError FForkEngine::FOnDevice::CreateThings()
 	FError Error = Skin.Create(Device);
 	if (Error.empty()) { Error = Raster.Create(Device); }
 	if (Error.empty()) { Error = Light.Create(Device); }
+	if (Error.empty()) { Error = Glass.Create(Device); }
 	return Error.empty() ? Readback.Create(Device, ViewCount * ViewBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT) : Error;
 }
 
@@ -113,7 +114,7 @@ FError FForkEngine::CopyOutputs(const FRTModuleOutputs& Outputs, uint32_t View, 
 		}
 		Offset += MaskBytes;
 	}
-	CopyImage(On->Device.Commands, On->Light.Lit.Image, VK_IMAGE_LAYOUT_GENERAL, GetViewOffset(View), On->Readback, Offset);
+	CopyImage(On->Device.Commands, On->Glass.Shown.Image, VK_IMAGE_LAYOUT_GENERAL, GetViewOffset(View), On->Readback, Offset);
 	Out.Lit = Start + Offset / sizeof(uint16_t);
 	return {};
 }
@@ -138,6 +139,7 @@ FError FForkEngine::RunView(const FForkFrame& Frame, bool bCut, FFrameMasks& Out
 	Error = Plugin.Render(On->Device.Commands, Frame, bCut, Outputs);
 	if (!Error.empty()) { return Error; }
 	On->Light.Run(On->Device.Commands, Frame, On->Raster, Outputs, Plugin.GetLampNumber());
+	On->Glass.Run(On->Device.Commands, Frame.View, On->Light.Lit, Outputs.Transmission);
 	Error = CopyOutputs(Outputs, Frame.View, Out);
 	if (!Error.empty()) { return Error; }
 	const auto SubmitAndEnd = [this] {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -43,16 +44,24 @@ struct FCamera
 	glm::dvec2 Jitter{0}; ///< of the picture, pixels, right and down
 };
 
+/// A pane of clear glass that faces y. The engine draws none: the plugin finds it by rays.
+struct FPane
+{
+	glm::dvec3 Centre{0};
+	double HalfSize = 1.0; ///< along x and z
+};
+
 struct FForkScene
 {
 	std::vector<FBox> Boxes;
 	FReed Reed;
 	glm::dvec3 SunDirection{0, 0, -1}; ///< direction in which the light travels, unit length
 	glm::dvec3 Lamp{0};
-	double LampIntensity = 0.0;     ///< candela; 0: there is none
-	double LampWidth = 0.0;         ///< of a square that shines down, LampIntensity straight below it; 0: the lamp is a point
-	uint8_t LampChannels = 1;       ///< bit 0: it lights all boxes
-	bool bLampProfile = false;      ///< it shines half as bright wherever it does not shine up
+	double LampIntensity = 0.0; ///< candela; 0: there is none
+	double LampWidth = 0.0;     ///< of a square that shines down, LampIntensity straight below it; 0: the lamp is a point
+	uint8_t LampChannels = 1;   ///< bit 0: it lights all boxes
+	bool bLampProfile = false;  ///< it shines half as bright wherever it does not shine up
+	std::optional<FPane> Pane;
 	std::array<FCamera, 2> Cameras; ///< two views of one scene, as of two players
 };
 

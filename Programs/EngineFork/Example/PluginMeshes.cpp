@@ -35,6 +35,15 @@ FRTModuleMesh FMeshArrays::Describe(const char* Name, bool bDeformable) const
 	return Mesh;
 }
 
+FMeshArrays MakePaneArrays()
+{
+	FMeshArrays Pane;
+	Pane.Positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
+	Pane.Normals.assign(4, {0, 1, 0});
+	Pane.Indices = {0, 1, 2, 0, 2, 3};
+	return Pane;
+}
+
 FRTModuleMesh DescribeReed(const FMeshArrays& Reed)
 {
 	FRTModuleMesh Mesh = Reed.Describe("Reed", true);

@@ -14,12 +14,16 @@ struct FMeshArrays
 {
 	explicit FMeshArrays(const FBoxMesh& Box);
 	explicit FMeshArrays(const FReedMesh& Reed); ///< as it stands
+	FMeshArrays() = default;
 	Lantern::FRTModuleMesh Describe(const char* Name, bool bDeformable) const;
 
 	std::vector<glm::vec3> Positions, Normals;
 	std::vector<glm::vec2> UVs;
 	std::vector<uint32_t> Indices;
 };
+
+/// A sheet across x and z, from −1 to 1.
+FMeshArrays MakePaneArrays();
 
 /// The reed, which the engine's GPU skins. It bends within its bounds.
 Lantern::FRTModuleMesh DescribeReed(const FMeshArrays& Reed);

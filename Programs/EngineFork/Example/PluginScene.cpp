@@ -64,12 +64,13 @@ FError FPluginScene::AddBoxMesh(bool bDeformable, ERTMeshHandle& Out)
 /// Meshes are made, so they can be made again. Other engines keep them, or read their files.
 bool FPluginScene::GiveMesh(ERTMeshHandle Mesh, FRTModuleMesh* Out)
 {
-	static const FMeshArrays Box(MakeBoxMesh()), Stem(MakeReedMesh());
+	static const FMeshArrays Box(MakeBoxMesh()), Stem(MakeReedMesh()), Sheet = MakePaneArrays();
 	if (Mesh == DeformableMesh)
 	{
 		Deformed = std::make_unique<FMeshArrays>(MakeBoxMesh(glm::vec3(VertexScale)));
 		*Out = Deformed->Describe("DeformableBox", true);
 	}
+	else if (Mesh == PaneMesh) { *Out = Sheet.Describe("Pane", false); }
 	else { *Out = Mesh == ReedMesh ? DescribeReed(Stem) : Box.Describe("Box", false); }
 	return true;
 }
@@ -85,7 +86,12 @@ FRTModuleMaterial FPluginScene::MakeCutOut() const
 
 FError FPluginScene::AddMaterials()
 {
-	const FError Error = ToError(Renderer->AddMaterial({}, &Solid), "AddMaterial(solid)");
+	FRTModuleMaterial Clear;
+	Clear.Transmission = 1.0f;
+	Clear.Roughness = 0.0f;
+	Clear.bDoubleSided = true;
+	FError Error = ToError(Renderer->AddMaterial({}, &Solid), "AddMaterial(solid)");
+	if (Error.empty()) { Error = ToError(Renderer->AddMaterial(Clear, &Glass), "AddMaterial(glass)"); }
 	return Error.empty() ? ToError(Renderer->AddMaterial(MakeCutOut(), &CutOut), "AddMaterial(cut out)") : Error;
 }
 
@@ -112,6 +118,24 @@ FError FPluginScene::AddReed(const FReed& At)
 	Object.MaterialCount = 1;
 	for (int Axis = 0; Axis < 3; ++Axis) { Object.Transform[Axis * 4 + 3] = At.Middle[Axis]; }
 	return ToError(Renderer->AddObject(Object, &Reed), "AddObject(reed)");
+}
+
+FError FPluginScene::SetPane(const FForkScene& Scene)
+{
+	if (!Scene.Pane) { return ToError(Renderer->RemoveObject(std::exchange(Pane, ERTObjectHandle::None)), "RemoveObject(pane)"); }
+	const FMeshArrays Sheet = MakePaneArrays();
+	FError Error;
+	if (PaneMesh == ERTMeshHandle::None) { Error = ToError(Renderer->AddMesh(Sheet.Describe("Pane", false), &PaneMesh), "AddMesh(pane)"); }
+	FRTModuleObject Object;
+	Object.Mesh = PaneMesh;
+	Object.Materials = &Glass;
+	Object.MaterialCount = 1;
+	for (int Axis = 0; Axis < 3; ++Axis)
+	{
+		Object.Transform[Axis * 5] = Axis == 1 ? 1.0 : Scene.Pane->HalfSize;
+		Object.Transform[Axis * 4 + 3] = Scene.Pane->Centre[Axis];
+	}
+	return Error.empty() ? ToError(Renderer->AddObject(Object, &Pane), "AddObject(pane)") : Error;
 }
 
 FError FPluginScene::FindReedPositions(VkDeviceAddress& Out)
@@ -242,6 +266,7 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FForkFrame& From, bo
 	Frame.bSubmitAhead = From.View != 0;
 	Frame.Wanted = Wanted;
 	Frame.bLightMask = bLightMask;
+	Frame.bTransmission = From.Scene.Pane.has_value();
 	Error = ToError(Renderer->RenderFrame(Frame, &Out), "RenderFrame");
 	bComplete = bComplete && Out.bComplete;
 	return Error;

@@ -29,6 +29,8 @@ public:
 	FError SetBox(size_t Box, const FBox& To);
 	/// Takes Lamp and all of FForkScene that begins with Lamp or bLamp over.
 	FError SetLamp(const FForkScene& Scene);
+	/// Adds FForkScene::Pane, or takes it away.
+	FError SetPane(const FForkScene& Scene);
 	/// By which the light mask names the lamp.
 	uint32_t GetLampNumber() const { return Lantern::GetLightNumber(Lamp); }
 	/// Where the engine's GPU writes the reed's positions for the plugin; 0 while the reed is on its way there.
@@ -62,9 +64,9 @@ private:
 
 	const FPluginDevice* On = nullptr;
 	Lantern::TRTRef<Lantern::IRTModuleRenderer> Renderer;
-	Lantern::ERTMeshHandle RigidMesh{}, DeformableMesh{}, ReedMesh{};
-	Lantern::ERTObjectHandle Reed{};
-	Lantern::ERTMaterialHandle Solid{}, CutOut{};
+	Lantern::ERTMeshHandle RigidMesh{}, DeformableMesh{}, ReedMesh{}, PaneMesh{};
+	Lantern::ERTObjectHandle Reed{}, Pane{};
+	Lantern::ERTMaterialHandle Solid{}, CutOut{}, Glass{};
 	Lantern::ERTLightHandle Lamp{};
 	Lantern::ERTIesHandle Profile{};
 	std::vector<FPlacedBox> Boxes;

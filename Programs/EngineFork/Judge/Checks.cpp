@@ -225,7 +225,7 @@ FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Pic
 	FJudge Judge{Engine, std::move(Scene), Pictures};
 	FError Error = CheckScene(Judge, "as made");
 	for (FError (*const Check)(FJudge&) : {CheckUnwanted, CheckMotion, CheckMoved, CheckOtherDevice, CheckLamp, CheckSquareLamp,
-	         CheckLightMask, CheckChanged, CheckStreamed, CheckOtherDevice})
+	         CheckLightMask, CheckGlass, CheckChanged, CheckStreamed, CheckOtherDevice})
 	{
 		if (Error.empty()) { Error = Check(Judge); }
 	}

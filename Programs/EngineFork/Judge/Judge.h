@@ -28,5 +28,7 @@ FError CheckLamp(FJudge& Judge);
 FError CheckSquareLamp(FJudge& Judge);
 /// The engine's own light of the lamp by the plugin's mask: each pixel of it is right.
 FError CheckLightMask(FJudge& Judge);
+/// A pane of glass in front of the picture leaves what a sheet must, and all else as it was.
+FError CheckGlass(FJudge& Judge);
 
 } // namespace Fork

@@ -234,8 +234,8 @@ private:
 			const bool bAccumulates = Engine.GetRenderer().GetHistory().GetBytes() > 0;
 			Settled = Settling.Add(Frame.Lighting) || !bAccumulates;
 		}
-		// The first frame of several builds and compiles: it is not what a frame costs.
-		if (Done == 1) { Figures = {}; }
+		// The first frame of several builds and compiles: it is not what a frame costs. Timings are those of up to two frames before.
+		if (Done <= 3 && Done + 1 < Most) { Figures = {}; }
 		Figures.Add(GetTimings(Engine.GetRenderer()));
 		++Done;
 		return FRTStatus::Success();

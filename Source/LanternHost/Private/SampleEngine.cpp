@@ -155,6 +155,7 @@ void FSampleEngine::DecodeReadbacks(const FReadbacks& Readbacks, const FFrameCap
 
 void FSampleEngine::SeekTo(double Time)
 {
+	ApplySampleSky(Scene->GetScene(), Time);
 	// The skinning of a lost frame never ran and must be repeated, as must one that was left out.
 	if (LastTime == Time && !Renderer.IsFrameLost() && !Renderer.WasSkinningLeftOut()) { return; }
 	LastTime = Time;
@@ -164,7 +165,6 @@ void FSampleEngine::SeekTo(double Time)
 std::vector<FSkinningInputs> FSampleEngine::MoveTo(double Time)
 {
 	SeekTo(Time);
-	ApplySampleSky(Scene->GetScene(), Time);
 	return std::exchange(Skinning, {});
 }
 

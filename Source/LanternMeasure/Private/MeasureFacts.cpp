@@ -33,8 +33,8 @@ std::vector<FFact> FindFacts(FSampleEngine& Engine)
 		               if (bWithout) { Light.Irradiance = 0.0f; }
 		               E.GetScene().SetSun(Light);
 	               }});
-	Out.push_back(
-	    {"sky", Facts.bSky, [Sky](FSampleEngine& E, bool bWithout) { E.GetScene().GetScene().SetSky(bWithout ? glm::vec3(0) : Sky); }});
+	Out.push_back({"sky", Facts.bSky && !Facts.bSkyProgram,
+	    [Sky](FSampleEngine& E, bool bWithout) { E.GetScene().GetScene().SetSky(bWithout ? glm::vec3(0) : Sky); }});
 	std::erase_if(Out, [](const FFact& Fact) { return !Fact.bThere; });
 	return Out;
 }

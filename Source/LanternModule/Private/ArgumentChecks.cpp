@@ -53,7 +53,8 @@ FRTStatus CheckSky(const float Radiance[3])
 
 FRTStatus CheckSkyProgram(const FRTModuleSkyProgram& Program)
 {
-	if (!std::isfinite(Program.Seconds)) { return Refuse("FRTModuleSkyProgram::Seconds is not finite"); }
+	constexpr double MostSeconds = 1.0e7; // of a float: steps of one second there
+	if (!(std::abs(Program.Seconds) <= MostSeconds)) { return Refuse("FRTModuleSkyProgram::Seconds must be from -1e7 to 1e7: wrap it"); }
 	const bool bFinite = AreFinite(Program.Values, std::size(Program.Values));
 	return bFinite ? FRTStatus::Success() : Refuse("FRTModuleSkyProgram::Values has a number that is not finite");
 }

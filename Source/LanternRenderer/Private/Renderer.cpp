@@ -210,7 +210,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	if (Status) { Status = FrameStatus; }
 	if (Status) { Status = StartUpdate(View, Wanted, Features); }
 	if (Status) { Status = AllocateConstants(); }
-	if (Status) { Status = Sky->AddPasses(*Context, Uploads, Features.ViewIndex); }
+	if (Status) { Status = Sky->AddPasses(*Context, Uploads, Features.ViewIndex, !Context->Signals.bNothingElse || Wanted.bLightSampling); }
 	if (Status && !bSkinningLeftOut) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning, FrameUse.bMotion); }
 	if (!Status)
 	{

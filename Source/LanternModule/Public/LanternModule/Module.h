@@ -277,7 +277,8 @@ struct FRTModuleSkyMap
 /// SetSky. The plugin bakes it into a map (r.RT.Sky.Bake), which rays read.
 struct FRTModuleSkyProgram
 {
-	/// What moves clouds, in seconds; finite. The map follows within r.RT.Sky.RefreshSeconds.
+	/// What moves clouds, in seconds, from -1e7 to 1e7. Shaders get a float, so wrap it every few hours. What rays see is one to two
+	/// r.RT.Sky.RefreshSeconds old.
 	double Seconds = 0.0;
 	/// Any numbers of the engine's, finite: FSkyData::Values. A change by more than 2 % shows at once. The plugin's own sky reads four: the
 	/// cover of its low and of its high clouds, 0 to 1, and the wind. The wind is along x and z of a world with y up, in metres a second.
@@ -297,7 +298,8 @@ struct FRTModuleRendererDesc
 	/// Tiles/HostShadow.glsl of the shader folder does, and takes its place. Read during CreateRenderer. Null: cascades.
 	const char* HostShadowShader = nullptr;
 	/// Shader of the engine's sky. An absolute path of a GLSL file that defines what Sky/SkyProgram.glsl of the shader folder does, and takes
-	/// its place. Directions that it gets are in the engine's world. Read during CreateRenderer. Null: the plugin's own sky.
+	/// its place. Directions that it gets are in the engine's world. It is compiled together with the plugin's libraries, so a prefix keeps its
+	/// names apart. Read during CreateRenderer. Null: the plugin's own sky.
 	const char* SkyShader = nullptr;
 };
 
@@ -392,7 +394,8 @@ public:
 	/// there was none (radiance or Intensity 0) needs other shaders, which compile beside the frames.
 	virtual FRTStatus SetSkyMap(const FRTModuleSkyMap* Map) = 0;
 	/// Makes a program the sky, from the next RenderFrame on, in place of a map. Null: the map or radiance again. A change of what the program
-	/// gets compiles nothing, so that it may come with each frame. A shader that does not compile is logged, and the sky is then uniform.
+	/// gets compiles nothing, so that it may come with each frame. A shader that does not compile is logged, and the sky is then the map or the
+	/// radiance. With r.RT.Sky.Bake off, what asks for the sky is left out instead.
 	virtual FRTStatus SetSkyProgram(const FRTModuleSkyProgram* Program) = 0;
 
 	/// Compiles what frames like Frame will run in the scene as it is, and waits for it. For load time, between frames: the first

@@ -124,7 +124,7 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 	const auto Cells = std::make_shared<FRadianceCells>();
 	Cells->Slots = GetSlots();
 	const FRadianceEvents::FFound Events =
-	    Context.RadianceEvents->Find(Context.Scene, MakeGatherView(Context.View).Position, Context.View.DeltaSeconds);
+	    Context.RadianceEvents->Find(Context.Scene, MakeGatherView(Context.View).Position, Context.View.DeltaSeconds, Context.SkyChange);
 	Cells->Grid = MakeGrid(Context, Cells->Slots, Events);
 	const uint32_t Others = Context.Facts.bTransmissive && Context.Signals.bTransmission ? 2 : 1;
 	Cells->Grid.VoteCount = CountPathVoters(Context) + Others * CountBlockVoters(Context);

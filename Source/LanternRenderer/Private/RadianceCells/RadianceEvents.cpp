@@ -8,7 +8,6 @@
 #include <glm/gtc/constants.hpp>
 
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "Sky/SkyBake.h"
 
 namespace Lantern
 {
@@ -112,11 +111,11 @@ std::vector<FRadianceEvent> FRadianceEvents::MakeLampEvents(const FRTScene& Scen
 
 bool AreIndirectChangesTold() { return CVarEvents.GetOnRenderThread(); }
 
-FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds)
+FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds, double SkyChange)
 {
 	const FSunLight& Sun = Scene.GetSun();
 	Next = {Scene.GetSections().GetIdentity(), glm::normalize(Sun.Direction), Sun.Color * Sun.Irradiance, Scene.GetSky(),
-	    Scene.GetSkyProgram(), Scene.GetLights().GetStrengthChanges().GetCount(), Scene.GetAppearanceChanges().GetObjects().GetCount(),
+	    Scene.GetLights().GetStrengthChanges().GetCount(), Scene.GetAppearanceChanges().GetObjects().GetCount(),
 	    Scene.GetAppearanceChanges().GetEverywhere(), true};
 	Delta = double(DeltaSeconds);
 	Fresh.clear();
@@ -125,8 +124,7 @@ FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, const glm::dvec3&
 	if (!Last.bValid || Last.Scene != Next.Scene || !CVarEvents.GetOnRenderThread()) { return Found; }
 	const bool bSun = glm::length(Next.Sun) > 0.0f || glm::length(Last.Sun) > 0.0f;
 	const double Window = GetWindow(bSun ? Last.SunDirection : Next.SunDirection, Next.SunDirection,
-	    std::max({GetChange(Last.Sun, Next.Sun), GetChange(Last.Sky, Next.Sky), GetSkyProgramChange(Last.SkyProgram, Next.SkyProgram),
-	        Next.Surfaces - Last.Surfaces}));
+	    std::max({GetChange(Last.Sun, Next.Sun), GetChange(Last.Sky, Next.Sky), SkyChange, Next.Surfaces - Last.Surfaces}));
 	if (Window < 1.0e9) { Fresh.push_back({.Window = static_cast<float>(std::max(Window, double(LeastWindow)))}); }
 	FindLampEvents(Scene);
 	std::vector<FCasterChange> Appearances;

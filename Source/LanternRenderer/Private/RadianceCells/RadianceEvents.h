@@ -29,8 +29,8 @@ public:
 		std::vector<FRadianceEvent> Lamps;
 	};
 	/// Finds what has changed since the view's last frame, and what did so less than HoldSeconds ago. DeltaSeconds: since that frame.
-	/// Camera: in the world.
-	FFound Find(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds);
+	/// Camera: in the world. SkyChange: FFrameContext's.
+	FFound Find(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds, double SkyChange);
 	/// Counts the frames of a table of cells. bFresh: it begins anew. Returns those before this one.
 	uint32_t CountFrames(bool bFresh) { return Frames = bFresh ? 0 : Frames + 1; }
 	/// bSubmitted: false if the frame never runs; the next one then finds its changes again.
@@ -45,7 +45,6 @@ private:
 		uint64_t Scene = 0; ///< identity
 		glm::dvec3 SunDirection{0, -1, 0};
 		glm::vec3 Sun{0}, Sky{0};
-		std::optional<FSkyProgram> SkyProgram;
 		uint64_t Lamps = 0;       ///< place in the journal of lights
 		uint64_t Appearances = 0; ///< FAppearanceChanges::GetObjects
 		double Surfaces = 0.0;    ///< FAppearanceChanges::GetEverywhere

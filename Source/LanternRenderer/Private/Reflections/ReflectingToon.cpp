@@ -1,6 +1,9 @@
 // Reflections of objects with a toon style.
 #include "Reflections/ReflectingToon.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "ReflectionTypes.h"
 #include "Reflections/ReflectionPaths.h"
@@ -13,9 +16,10 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarToon("r.RT.Reflections.Toon", true,
-    "Objects with a toon style reflect with their metal alone. The reflection's strength is the metalness, whatever the angle, and it is "
-    "to be "
-    "added to what the host shows. If off, as any other object. Needs r.RT.GI.Toon.");
+    "Objects with a toon style reflect with their metal alone. The reflection's strength is the metalness at any angle, as far as a metal "
+    "can: "
+    "dark colours are brighter at grazing ones. It is to be added to what the host shows. If off, as any other object. Needs "
+    "r.RT.GI.Toon.");
 TRTConsoleVariable<float> CVarThreshold(
     "r.RT.Reflections.Toon.Threshold", 0.9f, "Metalness above which objects with a toon style reflect.", {0, 1});
 TRTConsoleVariable<float> CVarMinRoughness(
@@ -67,7 +71,8 @@ FGBuffer AddReflectingToon(FFrameContext& Context, const FGBuffer& GBuffer, floa
 			C.OutMaterial = GetStorageIndex(Pass, Styled.Material);
 			C.Threshold = CVarThreshold.GetOnRenderThread();
 			C.Tint = CVarTint.GetOnRenderThread();
-			C.MaxRoughness = std::min(CVarMaxRoughness.GetOnRenderThread(), FullRoughness);
+			// A G-buffer has eight bits, and rounding up would fade it out.
+			C.MaxRoughness = std::floor(255.0f * std::min(CVarMaxRoughness.GetOnRenderThread(), FullRoughness)) / 255.0f;
 			C.MinRoughness = std::min(CVarMinRoughness.GetOnRenderThread(), C.MaxRoughness);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};

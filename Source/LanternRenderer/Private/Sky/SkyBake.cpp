@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Text/Log.h"
 #include "LanternRenderer/SkyProgram.h"
 #include "LanternScene/Memory/Upload.h"
 #include "LanternScene/Scene/TextureSlot.h"
@@ -22,10 +24,10 @@ TRTConsoleVariable<int32_t> CVarSize(
     "r.RT.Sky.Size", 1536, "Texels of the sky's map in each direction. The map is octahedral.", {SKY_TILE_SIZE, 8192});
 TRTConsoleVariable<float> CVarRefreshSeconds("r.RT.Sky.RefreshSeconds", 4.0f,
     "Time, in seconds, in which the sky's map is baked anew while clouds drift. A change of sun or host by more than 2 % is baked at once. "
-    "0: each frame bakes all of it.",
+    "0: each frame bakes all of it, without a fade.",
     {0, 3600});
-TRTConsoleVariable<float> CVarFadeSeconds(
-    "r.RT.Sky.FadeSeconds", 0.25f, "Time, in seconds, in which rays go from the sky's old map to its new one.", {0, 60});
+TRTConsoleVariable<float> CVarFadeSeconds("r.RT.Sky.FadeSeconds", 0.25f,
+    "Time, in seconds, in which rays go from the sky's old map to its new one; half of r.RT.Sky.RefreshSeconds at most.", {0, 60});
 TRTConsoleVariable<bool> CVarDebugFade(
     "r.RT.Debug.Sky.Fade", true, "Planted fault. Off: rays see the sky's new map from one frame to the next.");
 
@@ -35,16 +37,18 @@ constexpr uint32_t IdleFrames = 8;  // of the view that keeps the time, after wh
 FShaderSource MakeBakeSource() { return MakeComputeSource("Sky/Bake.comp"); }
 FShaderSource MakeFadeSource() { return MakeComputeSource("Sky/Fade.comp"); }
 
-double GetRelativeChange(double A, double B)
+/// As part of the longer one. Numbers that are about 0 beside others do not count as changed by all of themselves.
+template <class T>
+double GetRelativeChange(const T& A, const T& B)
 {
-	const double Greater = std::max(std::abs(A), std::abs(B));
-	return Greater > 0.0 ? std::abs(A - B) / Greater : 0.0;
+	const double Longer = std::max(double(glm::length(A)), double(glm::length(B)));
+	return Longer > 0.0 ? double(glm::length(A - B)) / Longer : 0.0;
 }
 
 double GetValuesChange(const glm::vec4* A, const glm::vec4* B)
 {
 	double Change = 0.0;
-	for (int I = 0; I < 4 * SKY_PROGRAM_VALUES; ++I) { Change = std::max(Change, GetRelativeChange(A[I / 4][I % 4], B[I / 4][I % 4])); }
+	for (int I = 0; I < SKY_PROGRAM_VALUES; ++I) { Change = std::max(Change, GetRelativeChange(A[I], B[I])); }
 	return Change;
 }
 
@@ -53,15 +57,6 @@ double GetAxesChange(const glm::vec3* A, const glm::vec3* B)
 	double Change = 0.0;
 	for (int I = 0; I < 3; ++I) { Change = std::max(Change, double(glm::length(A[I] - B[I]))); }
 	return std::min(Change, 1.0);
-}
-
-float GetMax(const glm::vec3& Color) { return std::max({Color.x, Color.y, Color.z}); }
-
-/// Returns a power of two near what the brighter parts of the sky send: half floats then have room above and below.
-float ChooseNits(const FSkyData& Sky)
-{
-	const float Brightness = std::max({GetMax(Sky.SunIrradiance) / 3.0f, GetMax(Sky.Radiance), 1.0e-6f});
-	return std::exp2(std::round(std::log2(Brightness)));
 }
 
 uint32_t CountTiles(uint32_t Size)
@@ -79,22 +74,12 @@ FShaderHeader MakeSkyProgramHeader(const std::string& Path)
 
 bool IsSkyBaked() { return CVarBake.GetOnRenderThread(); }
 
-double GetSkyProgramChange(const std::optional<FSkyProgram>& Before, const std::optional<FSkyProgram>& Now)
-{
-	if (!Before || !Now) { return Before.has_value() == Now.has_value() ? 0.0 : 1.0; }
-	return std::max(
-	    GetValuesChange(Before->Values.data(), Now->Values.data()), GetAxesChange(&Before->WorldToProgram[0], &Now->WorldToProgram[0]));
-}
-
 double GetSkyChange(const FSkyData& Before, const FSkyData& Now)
 {
 	double Change = std::max(
 	    {GetValuesChange(Before.Values, Now.Values), GetAxesChange(Before.Axes, Now.Axes), double(glm::length(Before.ToSun - Now.ToSun))});
-	for (int I = 0; I < 3; ++I)
-	{
-		Change = std::max({Change, GetRelativeChange(Before.SunIrradiance[I], Now.SunIrradiance[I]),
-		    GetRelativeChange(Before.Radiance[I], Now.Radiance[I])});
-	}
+	Change =
+	    std::max({Change, GetRelativeChange(Before.SunIrradiance, Now.SunIrradiance), GetRelativeChange(Before.Radiance, Now.Radiance)});
 	return std::min(Change, 1.0);
 }
 
@@ -109,7 +94,7 @@ void FSkyBake::Free()
 {
 	Baked = Shown = {};
 	Done = 1.0;
-	FadeLeft = 0.0;
+	FadeLeft = Leap = 0.0;
 }
 
 FRTStatus FSkyBake::CreateMap(const char* Name, uint32_t Size, FMap& Out)
@@ -151,33 +136,34 @@ bool FSkyBake::TakesTurn(const FFrameContext& Context, uint32_t ViewIndex)
 	return true;
 }
 
-FSkyBake::FStep FSkyBake::Advance(const FSkyData& Now, float DeltaSeconds)
+FSkyBake::FStep FSkyBake::Advance(const FSkyData& Now, const FView& View)
 {
 	FStep Step;
+	const double Delta = double(View.DeltaSeconds), Refresh = CVarRefreshSeconds.GetOnRenderThread();
 	const uint32_t Tiles = CountTiles(Shown.Texture->GetDesc().Width);
-	const double Fade = CVarDebugFade.GetOnRenderThread() ? double(CVarFadeSeconds.GetOnRenderThread()) : 0.0;
-	const double Refresh = CVarRefreshSeconds.GetOnRenderThread();
+	const double Wanted = CVarDebugFade.GetOnRenderThread() ? double(CVarFadeSeconds.GetOnRenderThread()) : 0.0;
+	const double Fade = std::min(Wanted, 0.5 * Refresh); // the rest is for the tiles
 	const bool bLeapt = std::abs(double(Now.Seconds) - double(Round.Seconds)) > 2.0 * Refresh + 1.0;
-	const bool bWhole = !Baked.bWritten || bLeapt || GetSkyChange(Round, Now) > JumpChange;
-	const bool bIdle = Done >= 1.0 && FadeLeft <= 0.0;
-	if (bWhole || (bIdle && std::memcmp(&Round, &Now, sizeof(Now)) != 0))
+	const double Differs = bLeapt || !Baked.bWritten ? 1.0 : GetSkyChange(Round, Now);
+	const bool bWhole = Differs > JumpChange || Refresh <= 0.0, bIdle = Done >= 1.0 && FadeLeft <= 0.0;
+	if (Differs > JumpChange || ((bIdle || bWhole) && std::memcmp(&Round, &Now, sizeof(Now)) != 0))
 	{
 		Round = Now;
 		Done = 0.0;
-		Baked.Nits = ChooseNits(Now);
+		Leap = Differs > JumpChange ? Differs : 0.0;
 	}
 	if (Done < 1.0)
 	{
-		const double Before = Done, Seconds = Refresh - Fade;
-		Done = bWhole || Seconds <= 0.0 ? 1.0 : std::min(Done + double(DeltaSeconds) / Seconds, 1.0);
+		const double Before = Done;
+		Done = bWhole ? 1.0 : std::min(Done + Delta / (Refresh - Fade), 1.0);
 		Step.FirstTile = static_cast<uint32_t>(Before * Tiles);
 		Step.TileCount = static_cast<uint32_t>(Done * Tiles) - Step.FirstTile;
 		if (Done >= 1.0) { FadeLeft = std::max(Fade, 1.0e-6); }
 	}
 	if (Done >= 1.0 && FadeLeft > 0.0)
 	{
-		Step.Fade = Shown.bWritten ? static_cast<float>(std::min(double(DeltaSeconds) / FadeLeft, 1.0)) : 1.0f;
-		FadeLeft = Step.Fade >= 1.0f ? 0.0 : FadeLeft - double(DeltaSeconds);
+		Step.Fade = Shown.bWritten && !View.bCut ? static_cast<float>(std::min(Delta / FadeLeft, 1.0)) : 1.0f;
+		FadeLeft = Step.Fade >= 1.0f ? 0.0 : FadeLeft - Delta;
 	}
 	return Step;
 }
@@ -189,7 +175,6 @@ FRTStatus FSkyBake::AddBakePass(
 	if (FRTStatus S = Uploads.Allocate(sizeof(Round), Slice); !S) { return S; }
 	std::memcpy(Slice.Data, &Round, sizeof(Round));
 	const uint32_t Size = Baked.Texture->GetDesc().Width;
-	const float Nits = Baked.Nits;
 	Context.Graph.AddPass("SkyBake", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(Target, ERTAccess::StorageWrite);
 		Context.Tokens.LeaveAlone(Builder);
@@ -199,7 +184,6 @@ FRTStatus FSkyBake::AddBakePass(
 			C.Output = Pass.GetTexture(Target)->GetStorageIndex();
 			C.Size = Size;
 			C.FirstTile = Step.FirstTile;
-			C.PerTexel = 1.0f / Nits;
 			Pass.Commands().SetPipeline(Pipeline);
 			Pass.Commands().PushConstants(&C, sizeof(C));
 			Pass.Commands().Dispatch(SKY_TILE_SIZE / SKY_GROUP_SIZE, SKY_TILE_SIZE / SKY_GROUP_SIZE, Step.TileCount);
@@ -212,20 +196,17 @@ FRTStatus FSkyBake::AddBakePass(
 void FSkyBake::AddFadePass(FFrameContext& Context, IRTPipeline* Pipeline, float Share, FGraphTexture From, FGraphTexture Target)
 {
 	const uint32_t Size = Shown.Texture->GetDesc().Width;
-	const float OfShown = Share < 1.0f ? (1.0f - Share) * Shown.Nits / Baked.Nits : 0.0f;
 	Context.Graph.AddPass("SkyFade", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(From, ERTAccess::ShaderRead);
-		if (OfShown > 0.0f) { Builder.Read(Target, ERTAccess::ShaderRead); }
+		if (Share < 1.0f) { Builder.Read(Target, ERTAccess::StorageRead); }
 		Builder.Write(Target, ERTAccess::StorageWrite);
 		Context.Tokens.LeaveAlone(Builder);
 		return [=](FPassContext& Pass) {
 			FSkyFadeConstants C{};
 			C.Baked = GetSampledIndex(Pass, From);
-			C.Shown = GetSampledIndex(Pass, Target);
-			C.Output = GetStorageIndex(Pass, Target);
+			C.Shown = GetStorageIndex(Pass, Target);
 			C.Size = Size;
-			C.OfBaked = Share;
-			C.OfShown = OfShown;
+			C.Share = Share;
 			Dispatch2D(Pass, Pipeline, C, Size, Size, SKY_GROUP_SIZE);
 		};
 	});
@@ -237,10 +218,9 @@ void FSkyBake::AddFadePass(FFrameContext& Context, IRTPipeline* Pipeline, float 
 		return [](FPassContext&) {};
 	});
 	Shown.bWritten = true;
-	Shown.Nits = Baked.Nits;
 }
 
-FRTStatus FSkyBake::AddPasses(FFrameContext& Context, FFrameUploads& Uploads, uint32_t ViewIndex)
+FRTStatus FSkyBake::AddPasses(FFrameContext& Context, FFrameUploads& Uploads, uint32_t ViewIndex, bool bRead)
 {
 	Data = 0;
 	bUsed = false;
@@ -253,25 +233,39 @@ FRTStatus FSkyBake::AddPasses(FFrameContext& Context, FFrameUploads& Uploads, ui
 	if (FRTStatus S = Uploads.Allocate(sizeof(Now), Slice); !S) { return S; }
 	std::memcpy(Slice.Data, &Now, sizeof(Now));
 	Data = Slice.Address;
-	if (Context.Facts.bSkyInPlace) { return FRTStatus::Success(); }
+	bUsed = Shown.bWritten; // also where shaders run the program: those of the frame before may stand in
+	const FSkyData Before = std::exchange(Last, Now);
+	if (Context.Facts.bSkyInPlace) { Context.SkyChange = GetSkyChange(Before, Now); }
+	if (Context.Facts.bSkyInPlace || !bRead) { return FRTStatus::Success(); }
+	if (TakesTurn(Context, ViewIndex)) { return AddMapPasses(Context, Uploads, Now); }
+	Context.SkyChange = Change;
+	return FRTStatus::Success();
+}
+
+FRTStatus FSkyBake::AddMapPasses(FFrameContext& Context, FFrameUploads& Uploads, const FSkyData& Now)
+{
 	IRTPipeline* const Bake = RequireCompute(Context, MakeBakeSource());
 	IRTPipeline* const Fade = RequireCompute(Context, MakeFadeSource());
-	if (!Bake || !Fade)
+	FRTStatus Status;
+	if (Bake && Fade) { Status = Prepare(static_cast<uint32_t>(CVarSize.GetOnRenderThread())); }
+	if (Status.Code == ERTResult::DeviceLost) { return Status; }
+	if (!Status) { LogOnce(ERTLogLevel::Warning, std::string("the sky's program has no map: ") + Status.Message); }
+	if (!Bake || !Fade || !Status)
 	{
-		Context.Facts.bSkyProgram = false; // later passes must not need it either
+		// As if there were no program: later passes must not need it either.
+		Context.Facts.bSkyProgram = bUsed = false;
+		Context.Facts.bSkyMap = Context.Facts.bSky && Context.Scene.GetConstants().SkyMap != NO_TEXTURE;
 		return FRTStatus::Success();
 	}
-	if (FRTStatus S = Prepare(static_cast<uint32_t>(CVarSize.GetOnRenderThread())); !S) { return S; }
+	const FStep Step = Advance(Now, Context.View);
+	Context.SkyChange = Change = Leap * double(Step.Fade);
 	bUsed = true;
-	if (!TakesTurn(Context, ViewIndex)) { return FRTStatus::Success(); }
-	const FStep Step = Advance(Now, Context.View.DeltaSeconds);
 	if (Step.TileCount == 0 && Step.Fade <= 0.0f) { return FRTStatus::Success(); }
 	const auto Import = [&](const FMap& Map, const char* Name) {
 		return Context.Graph.ImportTexture(
 		    Map.Texture.Get(), Map.bWritten ? ERTAccess::ShaderRead : ERTAccess::None, ERTAccess::ShaderRead, Name);
 	};
 	const FGraphTexture Target = Import(Baked, "SkyBaked");
-	FRTStatus Status;
 	if (Step.TileCount > 0) { Status = AddBakePass(Context, Uploads, Bake, Step, Target); }
 	if (Status && Step.Fade > 0.0f) { AddFadePass(Context, Fade, Step.Fade, Target, Import(Shown, "SkyShown")); }
 	return Status;
@@ -282,8 +276,7 @@ void FSkyBake::FillConstants(FSceneConstants& InOut) const
 	InOut.SkyData = Data;
 	if (!bUsed || !Shown.bWritten) { return; }
 	if (!MakeTextureSlot(Shown.Texture->GetSampledIndex(), Sampler->GetIndex(), InOut.SkyMap)) { return; }
-	InOut.SkyRadiance = glm::vec3(Shown.Nits);
-	InOut.SkyMapKind = SKY_MAP_OCTAHEDRAL;
+	InOut.SkyMapKind = SKY_MAP_ROOTS;
 	for (int Row = 0; Row < 3; ++Row) { InOut.SkyMapAxes[Row] = glm::vec3(Row == 0, Row == 1, Row == 2); }
 }
 

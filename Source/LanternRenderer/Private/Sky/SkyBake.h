@@ -10,12 +10,9 @@ namespace Lantern
 /// r.RT.Sky.Bake. Off: whatever asks for the sky's radiance runs its program.
 bool IsSkyBaked();
 
-/// Returns how much of what a program gets has changed, 0 to 1: as part of the greater of each two numbers, or radians of the sun's way.
+/// Returns how much of what a program gets has changed, 0 to 1: as part of the longer of each two vectors, or radians of the sun's way.
 /// Its time is no part of it.
 double GetSkyChange(const FSkyData& Before, const FSkyData& Now);
-
-/// The same of two programs without their scene; one that comes or goes changes all.
-double GetSkyProgramChange(const std::optional<FSkyProgram>& Before, const std::optional<FSkyProgram>& Now);
 
 void ListSkyShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out);
 
@@ -26,8 +23,9 @@ class FSkyBake
 {
 public:
 	explicit FSkyBake(IRTDevice& InDevice) : Device(InDevice) {}
-	/// Adds the frame's part of it. Does nothing, and frees the maps, without a program.
-	FRTStatus AddPasses(FFrameContext& Context, FFrameUploads& Uploads, uint32_t ViewIndex);
+	/// Adds the frame's part of it, and sets FFrameContext::SkyChange. Does nothing, and frees the maps, without a program. bRead: something in
+	/// the frame asks for the sky's radiance. Where the map cannot be made, the frame's facts know of no program.
+	FRTStatus AddPasses(FFrameContext& Context, FFrameUploads& Uploads, uint32_t ViewIndex, bool bRead);
 	/// Makes the map the sky of the frame's constants, if there is one.
 	void FillConstants(FSceneConstants& InOut) const;
 	/// bSubmitted false: nothing of the frame reaches the maps, which are then made anew.
@@ -37,7 +35,6 @@ private:
 	struct FMap
 	{
 		TRTRef<IRTTexture> Texture;
-		float Nits = 0.0f; ///< of a texel of 1
 		bool bWritten = false;
 	};
 	/// What a frame does.
@@ -48,7 +45,8 @@ private:
 	};
 	FRTStatus Prepare(uint32_t Size);
 	FRTStatus CreateMap(const char* Name, uint32_t Size, FMap& Out);
-	FStep Advance(const FSkyData& Now, float DeltaSeconds);
+	FStep Advance(const FSkyData& Now, const FView& View);
+	FRTStatus AddMapPasses(FFrameContext& Context, FFrameUploads& Uploads, const FSkyData& Now);
 	bool TakesTurn(const FFrameContext& Context, uint32_t ViewIndex);
 	FRTStatus AddBakePass(FFrameContext& Context, FFrameUploads& Uploads, IRTPipeline* Pipeline, const FStep& Step, FGraphTexture Target);
 	void AddFadePass(FFrameContext& Context, IRTPipeline* Pipeline, float Share, FGraphTexture From, FGraphTexture Target);
@@ -60,6 +58,9 @@ private:
 	FSkyData Round{};                     ///< what the tiles of Baked get
 	double Done = 1.0;                    ///< share of the round's tiles
 	double FadeLeft = 0.0;                ///< seconds
+	double Leap = 0.0;                    ///< by how much the sky of Baked differs from what was shown; 0: clouds have drifted
+	double Change = 0.0;                  ///< FFrameContext::SkyChange of the last frame that took its turn
+	FSkyData Last{};                      ///< of the last frame
 	FAddress Data = 0;                    ///< of this frame
 	uint64_t LastWorld = 0;               ///< identity of its scene's sections
 	bool bUsed = false;                   ///< this frame shows the map

@@ -291,6 +291,7 @@ struct FFrameContext
 	std::optional<FGraphTexture> ReflectedLight; ///< the signal; nullopt: nobody has asked so far
 	std::optional<FTransmission> Transmission;   ///< nullopt: nobody has asked so far
 	std::optional<FLightMask> LightMask;         ///< nullopt: nobody has asked so far
+	double SkyChange = 0.0; ///< share of the sky's light that a program's leap changes in this frame, beside the scene's own values
 	FLampChangesOfFrame LampChanges;
 	FMoversOfFrame Movers;
 	std::shared_ptr<const FRadianceCells> RadianceCells; ///< null: none, or nobody has asked so far

@@ -10,8 +10,8 @@ namespace Lantern
 
 /// Returns the header by which a host's own file takes the place of Sky/SkyProgram.glsl, for FRendererDesc::ShaderHeaders. Path:
 /// absolute, or relative to FRendererDesc::ShaderFolders, and none called Sky/SkyProgram.glsl. It defines
-/// vec3 EvaluateSky(vec3 Direction, FSkyData Sky): nits, without the sun's disk. What is negative or not finite counts as 0. A file that does
-/// not compile is logged, and the sky then has the radiance of FRTScene::SetSky.
+/// vec3 EvaluateSky(vec3 Direction, FSkyData Sky): nits, without the sun's disk. What is negative, not finite or above 1e30 counts as 0. A file
+/// that does not compile is logged, and the sky is then as if there were no program.
 FShaderHeader MakeSkyProgramHeader(const std::string& Path);
 
 } // namespace Lantern

@@ -116,7 +116,9 @@ inline constexpr FSignalInfo SignalInfos[] = {
         false, false, false, "r.RT.AO.Radius r.RT.AO.InstanceMask"},
     {ESignal::DiffuseGI, "diffuse_gi", "Diffuse GI", "DiffuseGI", "", ERTFormat::RGBA16_FLOAT, 3, true, false, true, false, false,
         "r.RT.GI.Toon"},
-    {ESignal::Reflections, "reflections", "Reflections", "Reflections", "", ERTFormat::RGBA16_FLOAT, 3, true, false, true, true, true, ""},
+    {ESignal::Reflections, "reflections", "Reflections", "Reflections", "", ERTFormat::RGBA16_FLOAT, 3, true, false, true, true, true,
+        "r.RT.Reflections r.RT.Reflections.MaxRoughness r.RT.Reflections.Toon r.RT.Reflections.Toon.Threshold "
+        "r.RT.Reflections.Toon.MinRoughness r.RT.Reflections.Toon.MaxRoughness r.RT.Reflections.Toon.Tint r.RT.GI.Toon"},
     {ESignal::LocalDiffuse, "local_diffuse", "Local lights, diffuse", "LocalDiffuse", "Shadow", ERTFormat::RGBA16_FLOAT, 3, true, false,
         true, true, false, ""},
     {ESignal::LocalSpecular, "local_specular", "Local lights, specular", "LocalSpecular", "Shadow", ERTFormat::RGBA16_FLOAT, 3, true, false,
