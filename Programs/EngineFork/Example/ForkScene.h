@@ -44,11 +44,11 @@ struct FCamera
 	glm::dvec2 Jitter{0}; ///< of the picture, pixels, right and down
 };
 
-/// A pane of clear glass that faces y. The engine draws none: the plugin finds it by rays.
+/// A pane of clear glass that lies flat. The engine draws none: the plugin finds it by rays.
 struct FPane
 {
 	glm::dvec3 Centre{0};
-	double HalfSize = 1.0; ///< along x and z
+	double HalfSize = 1.0; ///< along x and y
 };
 
 struct FForkScene

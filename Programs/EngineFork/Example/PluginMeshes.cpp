@@ -38,8 +38,8 @@ FRTModuleMesh FMeshArrays::Describe(const char* Name, bool bDeformable) const
 FMeshArrays MakePaneArrays()
 {
 	FMeshArrays Pane;
-	Pane.Positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
-	Pane.Normals.assign(4, {0, 1, 0});
+	Pane.Positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+	Pane.Normals.assign(4, {0, 0, 1});
 	Pane.Indices = {0, 1, 2, 0, 2, 3};
 	return Pane;
 }

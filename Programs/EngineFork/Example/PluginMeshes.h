@@ -22,7 +22,7 @@ struct FMeshArrays
 	std::vector<uint32_t> Indices;
 };
 
-/// A sheet across x and z, from −1 to 1.
+/// A sheet across x and y, from −1 to 1.
 FMeshArrays MakePaneArrays();
 
 /// The reed, which the engine's GPU skins. It bends within its bounds.

@@ -132,7 +132,7 @@ FError FPluginScene::SetPane(const FForkScene& Scene)
 	Object.MaterialCount = 1;
 	for (int Axis = 0; Axis < 3; ++Axis)
 	{
-		Object.Transform[Axis * 5] = Axis == 1 ? 1.0 : Scene.Pane->HalfSize;
+		Object.Transform[Axis * 5] = Axis == 2 ? 1.0 : Scene.Pane->HalfSize;
 		Object.Transform[Axis * 4 + 3] = Scene.Pane->Centre[Axis];
 	}
 	return Error.empty() ? ToError(Renderer->AddObject(Object, &Pane), "AddObject(pane)") : Error;

@@ -35,8 +35,8 @@ enum class EPanePart
 	Outside
 };
 
-/// Which part of the pane a pixel shows. OutReflected: what the pane reflects there, as 2R / (1 + R) with R by Schlick (1994).
-EPanePart FindPart(const FForkScene& Scene, uint32_t Pixel, double& OutReflected)
+/// Which part of the pane a pixel shows. OutLeft: the share of light that a sheet leaves, (1 - R) / (1 + R) with R by Schlick (1994).
+EPanePart FindPart(const FForkScene& Scene, uint32_t Pixel, double& OutLeft)
 {
 	constexpr double Border = 0.03 * Metre;
 	const FCamera& Camera = Scene.Cameras[0];
@@ -44,32 +44,31 @@ EPanePart FindPart(const FForkScene& Scene, uint32_t Pixel, double& OutReflected
 	const double X = ((Pixel % ViewSize.width + 0.5) / ViewSize.width * 2.0 - 1.0) * Tangent * Aspect;
 	const double Y = (1.0 - (Pixel / ViewSize.width + 0.5) / ViewSize.height * 2.0) * Tangent;
 	const glm::dvec3 Direction = normalize(Camera.Forward + X * Camera.Right + Y * Camera.Up);
-	const glm::dvec3 Met = Camera.Position + Direction * ((Scene.Pane->Centre.y - Camera.Position.y) / Direction.y);
+	const glm::dvec3 Met = Camera.Position + Direction * ((Scene.Pane->Centre.z - Camera.Position.z) / Direction.z);
 	const glm::dvec3 Off = abs(Met - Scene.Pane->Centre);
-	const double Beyond = std::max(Off.x, Off.z) - Scene.Pane->HalfSize, R = 0.04 + 0.96 * std::pow(1.0 - std::abs(Direction.y), 5.0);
-	OutReflected = 2.0 * R / (1.0 + R);
+	const double Beyond = std::max(Off.x, Off.y) - Scene.Pane->HalfSize, R = 0.04 + 0.96 * std::pow(1.0 - std::abs(Direction.z), 5.0);
+	OutLeft = (1.0 - R) / (1.0 + R);
 	return Beyond < -Border ? EPanePart::Inside : Beyond < Border ? EPanePart::Edge : EPanePart::Outside;
 }
 
+/// The pane reflects the sky alone, which is dark.
 FError Compare(const FForkScene& Scene, const std::vector<double>& Without, const std::vector<double>& With)
 {
-	constexpr double Step = 0.008, Brightest = 0.7; // eight bits of transmittance and of normals; light of the brightest surface
+	constexpr double Step = 0.005; // of the eight bits of transmittance, and halves
 	uint32_t Inside = 0, Outside = 0;
 	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
 	{
-		double Reflected = 0.0;
-		const EPanePart Part = FindPart(Scene, Pixel, Reflected);
+		double Left = 1.0;
+		const EPanePart Part = FindPart(Scene, Pixel, Left);
 		if (Part == EPanePart::Edge) { continue; }
-		const bool bInside = Part == EPanePart::Inside;
-		const double Least = bInside ? (1.0 - Reflected) * Without[Pixel] : Without[Pixel];
-		const double Most = Least + (bInside ? Reflected * Brightest : 0.0);
-		if (With[Pixel] < Least - Step || With[Pixel] > Most + Step)
+		const double Right = Part == EPanePart::Inside ? Left * Without[Pixel] : Without[Pixel];
+		if (!(std::abs(With[Pixel] - Right) < Step))
 		{
 			return "pixel " + std::to_string(Pixel % ViewSize.width) + ", " + std::to_string(Pixel / ViewSize.width) + " shows " +
-			       std::to_string(With[Pixel]) + " and not " + std::to_string(Least) + " to " + std::to_string(Most);
+			       std::to_string(With[Pixel]) + ", not " + std::to_string(Right);
 		}
-		Inside += bInside && Without[Pixel] > 0.1;
-		Outside += !bInside;
+		Inside += Part == EPanePart::Inside && Without[Pixel] > 0.1;
+		Outside += Part == EPanePart::Outside;
 	}
 	std::printf("glass: %u pixels behind it, %u beside it\n", Inside, Outside);
 	return Inside > 3000 && Outside > 10000 ? FError() : "too little of the pane to judge it";
@@ -85,7 +84,7 @@ FError CheckGlass(FJudge& Judge)
 	std::vector<double> Without, With;
 	FError Error = RenderLit(Judge, Without);
 	const FCamera& Camera = Judge.Scene.Cameras[0];
-	Judge.Scene.Pane = FPane{Camera.Position + Camera.Forward * (4.0 * Metre), 0.9 * Metre};
+	Judge.Scene.Pane = FPane{Camera.Position + Camera.Forward * (4.0 * Metre), 1.5 * Metre};
 	if (Error.empty()) { Error = Plugin.SetPane(Judge.Scene); }
 	if (Error.empty()) { Error = RenderLit(Judge, With); }
 	if (Error.empty()) { Error = Compare(Judge.Scene, Without, With); }
