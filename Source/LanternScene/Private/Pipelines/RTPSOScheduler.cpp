@@ -206,7 +206,8 @@ void FRTPSOScheduler::StoreUnit(const FUnitTask& Task, FUnitResult Result)
 	FUnitState& State = *Task.State;
 	Round.EndUnit(State);
 	State.ContentKey = std::move(Result.ContentKey);
-	State.Error = Result.Status;
+	const bool bAgain = std::exchange(State.bBeganBefore, false) && IsShortage(Result.Status);
+	State.Error = bAgain ? FRTStatus::Success() : Result.Status;
 	if (Result.Status)
 	{
 		++Stats.Compiled;
@@ -214,7 +215,7 @@ void FRTPSOScheduler::StoreUnit(const FUnitTask& Task, FUnitResult Result)
 		// Releasing the last reference to a library calls the driver.
 		if (FPipelineBuildRef Older = std::exchange(State.Ready, std::move(Result.Build))) { Trash.Discard(std::move(Older)); }
 	}
-	else { StoreFailure(Task, Result.Status); }
+	else if (!bAgain) { StoreFailure(Task, Result.Status); }
 	++Results;
 	bDirty |= !Round.IsOpen(); // the compile took longer than its round
 	CloseRoundIfOver();

@@ -174,6 +174,7 @@ void FRTPSOUnitSet::ForgetShortages()
 	for (const FUnitStateRef& State : Wanted.All)
 	{
 		State->RetryAt = 0;
+		State->bBeganBefore = State->Work == EUnitWork::Compiling;
 		if (State->FailedVersion != State->GetVersion()) { State->Error = FRTStatus::Success(); }
 	}
 }

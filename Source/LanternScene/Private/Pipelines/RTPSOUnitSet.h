@@ -36,9 +36,11 @@ struct FUnitState
 	uint64_t ReadyVersion = 0;  ///< GetVersion() of Ready; 0: none
 	uint64_t FailedVersion = 0; ///< GetVersion() of the newest one that does not compile; 0: none
 	FRTStatus Error;            ///< of the newest compile
-	uint64_t RetryAt = 0;       ///< frame before which it is not compiled, after a shortage of memory
-	std::string ContentKey;     ///< FUnitCompiler::GetContentKey of the newest compile
-	uint64_t LastWanted = 0;    ///< frame
+	/// The compile under way began before shortages were forgotten: if it has met one, there may be memory by now.
+	bool bBeganBefore = false;
+	uint64_t RetryAt = 0;    ///< frame before which it is not compiled, after a shortage of memory
+	std::string ContentKey;  ///< FUnitCompiler::GetContentKey of the newest compile
+	uint64_t LastWanted = 0; ///< frame
 	bool bWanted = false;
 
 	uint64_t GetVersion() const { return (Unit.Version << 24) + Reloads + 1; }
