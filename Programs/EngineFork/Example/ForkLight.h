@@ -1,7 +1,7 @@
 // The engine's lighting: a compute pass that reads the G-buffer and the plugin's outputs.
 #pragma once
 
-#include "Example/ForkRaster.h"
+#include "Example/ForkImagePass.h"
 #include "LanternModule/Module.h"
 
 namespace Fork
@@ -13,9 +13,6 @@ public:
 	static constexpr VkFormat Format = VK_FORMAT_R16G16B16A16_SFLOAT;
 	static constexpr double Sun = 1.0, Ambient = 0.25; ///< on a surface that faces it, and from everywhere
 
-	FForkLight() = default;
-	FForkLight(const FForkLight&) = delete;
-	~FForkLight();
 	FError Create(const FForkDevice& Owner);
 	/// Lights a view. The GPU must have finished the view's frame before. Leaves Lit in VK_IMAGE_LAYOUT_GENERAL. LampNumber: by which the
 	/// light mask names the lamp.
@@ -25,22 +22,8 @@ public:
 	FForkImage Lit; ///< radiance, of all views side by side; a: 1 where there is a surface
 
 private:
-	struct FReadImage
-	{
-		VkImageView View = VK_NULL_HANDLE;
-		VkImageLayout Layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-	};
-	FError CreatePipeline();
-	FError CreateSets();
-	void WriteSet(VkDescriptorSet Set, const FReadImage* Images);
-
-	VkDevice Device = VK_NULL_HANDLE;
 	FForkImage NoMask; // stands in for null textures of integers
-	VkDescriptorSetLayout SetLayout = VK_NULL_HANDLE;
-	VkDescriptorPool Pool = VK_NULL_HANDLE;
-	VkDescriptorSet Sets[ViewCount] = {};
-	VkPipelineLayout Layout = VK_NULL_HANDLE;
-	VkPipeline Pipeline = VK_NULL_HANDLE;
+	FForkImagePass Pass;
 };
 
 } // namespace Fork
