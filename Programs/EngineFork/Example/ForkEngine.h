@@ -2,8 +2,9 @@
 //
 // PluginLoader finds, loads and initializes the plugin. ForkEngine creates a VkDevice with what the plugin needs, and runs frames.
 // PluginScene hands scene, G-buffer and command buffer to the plugin. PluginMap hands over a texture. ForkLight lights with what comes
-// back, and ForkGlass puts glass in front of it; both are passes of ForkImagePass. The rest is the engine itself: ForkVulkan (device, images), ForkSkin (skinning), ForkRaster (G-buffer) and ForkScene (boxes,
-// cameras, world). The code in Judge/ checks the pictures and is no part of the example.
+// back, and ForkGlass puts glass in front of it; both are passes of ForkImagePass. The rest is the engine itself: ForkVulkan (device,
+// images), ForkSkin (skinning), ForkRaster (G-buffer) and ForkScene (boxes, cameras, world). The code in Judge/ checks the pictures and is
+// no part of the example.
 #pragma once
 
 #include <array>
