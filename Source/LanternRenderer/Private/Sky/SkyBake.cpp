@@ -172,8 +172,7 @@ FRTStatus FSkyBake::AddBakePass(
     FFrameContext& Context, FFrameUploads& Uploads, IRTPipeline* Pipeline, const FStep& Step, FGraphTexture Target)
 {
 	FUploadSlice Slice;
-	if (FRTStatus S = Uploads.Allocate(sizeof(Round), Slice); !S) { return S; }
-	std::memcpy(Slice.Data, &Round, sizeof(Round));
+	if (FRTStatus S = Uploads.Push(&Round, sizeof(Round), Slice); !S) { return S; }
 	const uint32_t Size = Baked.Texture->GetDesc().Width;
 	Context.Graph.AddPass("SkyBake", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(Target, ERTAccess::StorageWrite);
@@ -230,8 +229,7 @@ FRTStatus FSkyBake::AddPasses(FFrameContext& Context, FFrameUploads& Uploads, ui
 	if (!Context.Facts.bSkyProgram) { return FRTStatus::Success(); }
 	const FSkyData Now = Context.Scene.MakeSkyData();
 	FUploadSlice Slice;
-	if (FRTStatus S = Uploads.Allocate(sizeof(Now), Slice); !S) { return S; }
-	std::memcpy(Slice.Data, &Now, sizeof(Now));
+	if (FRTStatus S = Uploads.Push(&Now, sizeof(Now), Slice); !S) { return S; }
 	Data = Slice.Address;
 	bUsed = Shown.bWritten; // also where shaders run the program: those of the frame before may stand in
 	const FSkyData Before = std::exchange(Last, Now);
