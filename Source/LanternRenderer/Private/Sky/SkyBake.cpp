@@ -11,6 +11,7 @@
 #include "LanternRenderer/SkyProgram.h"
 #include "LanternScene/Memory/Upload.h"
 #include "LanternScene/Scene/TextureSlot.h"
+#include "ShaderReplacement.h"
 
 namespace Lantern
 {
@@ -66,11 +67,7 @@ uint32_t CountTiles(uint32_t Size)
 }
 } // namespace
 
-FShaderHeader MakeSkyProgramHeader(const std::string& Path)
-{
-	const char* const Replaced = "Sky/SkyProgram.glsl";
-	return {Replaced, "#include \"" + Path + "\"\n", Replaced};
-}
+FShaderHeader MakeSkyProgramHeader(const std::string& Path) { return MakeShaderReplacement("Sky/SkyProgram.glsl", Path); }
 
 bool IsSkyBaked() { return CVarBake.GetOnRenderThread(); }
 

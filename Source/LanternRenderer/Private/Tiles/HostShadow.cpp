@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "Rays/RayQueue.h"
+#include "ShaderReplacement.h"
 
 namespace Lantern
 {
@@ -99,7 +100,7 @@ FHostShadowCascadeData MakeCascade(const FHostShadowCascade& From, const FFrameC
 }
 } // namespace
 
-FShaderHeader MakeHostShadowHeader(const std::string& Path) { return {Replaced, "#include \"" + Path + "\"\n", Replaced}; }
+FShaderHeader MakeHostShadowHeader(const std::string& Path) { return MakeShaderReplacement(Replaced, Path); }
 
 bool HasHostShadowHeader(const std::vector<FShaderHeader>& Headers)
 {
