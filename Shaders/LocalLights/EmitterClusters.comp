@@ -21,5 +21,5 @@ void main()
 	uint Object = FEmissiveClusterRef(Scene.EmissiveClusters).Data[Number].Object;
 	vec3 Offset = CellOffset(Scene, FObjectRef(Scene.Objects).Data[Object].Cell);
 	FOutRef(Push.Clusters).Data[Number] = MoveCluster(FBoundsRef(Scene.EmissiveBounds).Data[Number], Offset);
-	if (Number == 0u) { FOutRef(Push.Clusters).Header = FEmitterHeader(Push.ReflectedRoughness, uint[3](0u, 0u, 0u)); }
+	if (Number == 0u) { FOutRef(Push.Clusters).Header = FEmitterHeader(Push.ReflectedRoughness, Push.Dim, uint[2](0u, 0u)); }
 }

@@ -23,6 +23,10 @@ FAddress EmitterRegions(FSceneConstants Scene, FAddress Emitters)
 // See EmissionOfRays.
 float ReflectedRoughness(FAddress Emitters) { return Emitters != FAddress(0) ? FEmitterHeaderRef(Emitters).Data.ReflectedRoughness : 0.0; }
 
+// Returns how bright what a pixel reflects of emitters must be for it to ask for a ray in each frame, as a share of white as the picture is
+// exposed.
+float DimEmitter(FAddress Emitters) { return max(FEmitterHeaderRef(Emitters).Data.Dim, 1.0e-20); }
+
 // Returns the distance from a box to the cluster's, squared.
 float BoxDistance(FEmitterCluster Cluster, vec3 Low, vec3 High)
 {

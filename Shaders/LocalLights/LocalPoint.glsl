@@ -22,6 +22,9 @@ uint CountSlots(FTileLights Tile) { return Tile.Count == TILE_LIGHTS_MANY ? 0u :
 // Whether pixels choose of lights, and not of emissive triangles alone.
 bool ChoosesOfLights(FTileLights Tile) { return Tile.Count == TILE_LIGHTS_MANY || Tile.bChooses == TILE_CHOOSES_REST; }
 
+// Whether pixels have chosen in this frame.
+bool HaveChosen(FTileLights Tile) { return Tile.bChooses != 0u && Tile.bChooses != TILE_CHOOSES_NOBODY; }
+
 #ifndef CHOSEN_RAYS
 #define CHOSEN_RAYS 1u
 #endif

@@ -102,7 +102,7 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
 	bCertain = Tile.bChooses == 0u;
 #ifdef MANY_LIGHTS
-	if (Tile.bChooses != 0u) { AddChosen(Sum, Tile, Scene, View, Pixel, Place, Answer, Point, Local); }
+	if (HaveChosen(Tile)) { AddChosen(Sum, Tile, Scene, View, Pixel, Place, Answer, Point, Local); }
 #endif
 #ifndef LIGHT_MASK
 	uint Neighbors = 0u;
@@ -161,13 +161,13 @@ void main()
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[TileIndex(View, gl_WorkGroupID.xy)];
 	CountAnswers(Tile, View, Answer, Place);
 #ifdef GUIDED
-	Remember(Scene, View, Pixel.y * View.Width + Pixel.x, CountChosen(Tile), Tile.bChooses != 0u ? Answer : 0u, Place);
+	Remember(Scene, View, Pixel.y * View.Width + Pixel.x, CountChosen(Tile), HaveChosen(Tile) ? Answer : 0u, Place);
 #endif
 	barrier();
 	float Depth = bInside ? LoadDepth(Push.Depth, ivec2(Pixel)) : 0.0;
 	FLobes Lobes = FLobes(vec3(0.0), vec3(0.0));
-	bool bCertain = true, bOfOthers = false;
-	if (Depth > 0.0 && (Tile.Count != 0u || Tile.bChooses != 0u)) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth, bCertain); }
+	bool bCertain = Tile.bChooses != TILE_CHOOSES_NOBODY, bOfOthers = false;
+	if (Depth > 0.0 && (Tile.Count != 0u || HaveChosen(Tile))) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth, bCertain); }
 #ifdef SPARSE
 	bOfOthers = !bCertain && !HasTurn(View.FrameIndex, Place);
 #ifdef MANY_LIGHTS

@@ -31,7 +31,7 @@ void CountAnswers(FTileLights Tile, FViewConstants View, uint Answer, uint Place
 {
 	if (Place <= TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
 	barrier();
-	uint Chosen = Tile.bChooses != 0u ? CountChosen(Tile) : 0u;
+	uint Chosen = HaveChosen(Tile) ? CountChosen(Tile) : 0u;
 	for (uint I = 0u; I < Chosen; ++I) { CountAnswer(Answer, ChosenSlot, ChosenSeenBit(I), ChosenTracedBit(I)); }
 	uint Slots = CountSlots(Tile);
 	for (uint I = 0u; I < Slots; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }

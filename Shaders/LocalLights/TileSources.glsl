@@ -38,7 +38,7 @@ struct FTileSource
 FTileSource FindSource(FSceneConstants Scene, FViewConstants View)
 {
 	if (Push.Regions == FAddress(0)) { return FTileSource(Scene.LightCount, false, FAddress(0)); }
-	FAddress Region = Push.Regions + RegionIndex(View, gl_WorkGroupID.xy) * SizeOfRegion;
+	FAddress Region = Push.Regions + RegionIndex(View, GROUP_TILE) * SizeOfRegion;
 	uint Count = FLightRegionRef(Region).Data.Count;
 	return FTileSource(min(Count, REGION_LIGHTS), Count > REGION_LIGHTS, Region);
 }
@@ -51,7 +51,7 @@ FTileSource FindEmitterSource(FSceneConstants Scene, FViewConstants View)
 {
 	FAddress Regions = EmitterRegions(Scene, Push.Emitters);
 	if (Regions == FAddress(0)) { return FTileSource(Scene.EmissiveClusterCount, false, FAddress(0)); }
-	FAddress Region = Regions + RegionIndex(View, gl_WorkGroupID.xy) * SizeOfRegion;
+	FAddress Region = Regions + RegionIndex(View, GROUP_TILE) * SizeOfRegion;
 	uint Count = FLightRegionRef(Region).Data.Count;
 	return FTileSource(min(Count, REGION_EMITTERS), Count > REGION_EMITTERS, Region);
 }

@@ -87,16 +87,15 @@ void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint 
 	barrier();
 }
 
-// Finds the tile of the previous frame that showed this one's surface, as if nothing but the camera had moved. One thread.
-void FindPreviousTile(FViewConstants View, uvec2 Tile)
+// Finds the tile of the previous frame that showed a point of this one, as if nothing but the camera had moved. One thread. Place: of the
+// pixel that shows the point.
+void FindPreviousTile(FViewConstants View, uvec2 Tile, uint Place, vec3 P)
 {
 	PreviousTile = uvec2(NoTile);
-	uint First = 0u;
-	while (First < TileSamplers && SamplerKeys[First] == 0u) { ++First; }
-	if (Push.PreviousGuide == PREVIOUS_GUIDE_NONE || First == TileSamplers) { return; }
-	vec3 Relative = SamplerP[First] - View.CameraPosition;
+	if (Push.PreviousGuide == PREVIOUS_GUIDE_NONE) { return; }
+	vec3 Relative = P - View.CameraPosition;
 	vec3 Motion = ComputeMotion(View, Relative, Relative + View.CameraMotion);
-	vec2 Previous = vec2(TilePixel(Tile, SamplerKeys[First] & 255u)) + 0.5 + Motion.xy;
+	vec2 Previous = vec2(TilePixel(Tile, Place)) + 0.5 + Motion.xy;
 	if (Motion.z > 0.0 && all(greaterThanEqual(Previous, vec2(0.0))) && all(lessThan(Previous, vec2(View.Width, View.Height))))
 	{
 		PreviousTile = uvec2(Previous) / TILE_SIZE;
@@ -134,7 +133,13 @@ void LoadRemembered(FViewConstants View, uint Place)
 void PrepareTable(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
 {
 	ChooseSamplers(View, Point, bSurface, Place);
-	if (Place == 0u) { FindPreviousTile(View, gl_WorkGroupID.xy); }
+	if (Place == 0u)
+	{
+		uint First = 0u;
+		while (First < TileSamplers - 1u && SamplerKeys[First] == 0u) { ++First; }
+		PreviousTile = uvec2(NoTile);
+		if (SamplerKeys[First] != 0u) { FindPreviousTile(View, GROUP_TILE, SamplerKeys[First] & 255u, SamplerP[First]); }
+	}
 	barrier();
 	LoadRemembered(View, Place);
 }
@@ -325,7 +330,7 @@ void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 	uint Length = (TableCount + TILE_PIXELS - 1u) / TILE_PIXELS, Begin = min(Place * Length, TableCount);
 	FRun Run = FRun(Begin, min(Begin + Length, TableCount));
 	EstimateLights(Scene, View, Run, Place, Low, High);
-	SumUpTo(Place, WeighLights(Scene, Run, GuideTileHash(TileIndex(View, gl_WorkGroupID.xy))));
+	SumUpTo(Place, WeighLights(Scene, Run, GuideTileHash(TileIndex(View, GROUP_TILE))));
 	float Before = Place > 0u ? RunSums[Place - 1u] : 0.0;
 	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I) { Cumulative[I] += Before; }
 	barrier();
@@ -336,7 +341,7 @@ void WriteGuide(FViewConstants View, uint Place, bool bMade)
 {
 	if (Place >= TILE_GUIDE_LIGHTS) { return; }
 	FGuideLight Out = FGuideLight(NoGuideLight, 0u);
-	if (bMade && all(equal(PreviousTile, gl_WorkGroupID.xy))) // a lamp that is dark now may shine again
+	if (bMade && all(equal(PreviousTile, GROUP_TILE))) // a lamp that is dark now may shine again
 	{
 		uint Counts = Remembered[Place].Counts;
 		Out = FGuideLight(Remembered[Place].Light, PackGuideCounts(float(GuideTraced(Counts)) * Push.GuideKept, float(GuideSeen(Counts)) * Push.GuideKept));
@@ -357,7 +362,29 @@ void WriteGuide(FViewConstants View, uint Place, bool bMade)
 		}
 		Out.Counts = PackGuideCounts(Rays.x, Rays.y);
 	}
-	FTileGuideRef(Push.Guide).Data[TileIndex(View, gl_WorkGroupID.xy)].Lights[Place] = Out;
+	FTileGuideRef(Push.Guide).Data[TileIndex(View, GROUP_TILE)].Lights[Place] = Out;
+}
+
+// Keeps what the tile remembers in a frame without a table. All threads, behind LoadRemembered.
+void CarryGuide(FViewConstants View, uint Place)
+{
+	uint Index = TileIndex(View, GROUP_TILE);
+	bool bMine = Place < TILE_GUIDE_LIGHTS;
+	if (bMine && Remembered[Place].Light != NoGuideLight)
+	{
+		uint Key = (GuideTraced(Remembered[Place].Counts) << 8u) | (Place + 1u);
+		atomicMax(GuideKeys[GuidePlace(Remembered[Place].Light, GuideTileHash(Index))], Key);
+	}
+	barrier();
+	if (!bMine) { return; }
+	FGuideLight Out = FGuideLight(NoGuideLight, 0u);
+	if (GuideKeys[Place] != 0u)
+	{
+		FGuideLight Kept = Remembered[(GuideKeys[Place] & 255u) - 1u];
+		vec2 Rays = vec2(GuideTraced(Kept.Counts), GuideSeen(Kept.Counts)) * Push.GuideKept;
+		Out = FGuideLight(Kept.Light, PackGuideCounts(Rays.x, Rays.y));
+	}
+	FTileGuideRef(Push.Guide).Data[Index].Lights[Place] = Out;
 }
 
 // Returns the first entry whose cumulative weight exceeds X.
@@ -381,14 +408,17 @@ FLobes WeighLobes(FLobes Mean, FLobes Chosen, float Weight)
 	return Mean;
 }
 
+uint MostCandidates() { return Push.Limits >> 16u; }
+
 // Chooses lights of the table by what they are expected to bring.
+// Candidates: how many each looks at, from 1 to MostCandidates().
 // Count: how many, at most CHOSEN_RAYS.
 // Choices: each alone stands for all of the light.
 // Lit: what the pixel reflects if the light is visible. It has the luminance of the chosen light, without bias, and the mean colour of
 // all candidates, which are many and have less noise.
 // bAsks: whether it asks for a ray.
 // Resampled importance sampling (Talbot et al. 2005) of stratified candidates. Choices are stratified, too.
-void ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, uint Count,
+void ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, uint Candidates, uint Count,
                    inout FLightChoice Choices[CHOSEN_RAYS], out FLobes Lit[CHOSEN_RAYS], inout bool bAsks[CHOSEN_RAYS])
 {
 	float All = TableCount > 0u ? Cumulative[TableCount - 1u] : 0.0, Target[CHOSEN_RAYS], Which[CHOSEN_RAYS], Total = 0.0;
@@ -400,7 +430,6 @@ void ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		Which[C] = (float(C) + U.y) / float(Count);
 		Lit[C] = Chosen[C] = Mean;
 	}
-	uint Candidates = Push.Limits >> 16u;
 	[[dont_unroll]] for (uint I = 0u; I < Candidates && All > 0.0; ++I)
 	{
 		float At = (float(I) + U.x) / float(Candidates) * All, Chance = 1.0;

@@ -13,6 +13,7 @@ LANTERN_SHARED_BEGIN
 #define TILE_LIGHTS_MANY 0xffffffffu     // FTileLights::Count: each pixel chooses one light
 #define TILE_LIGHT_UNSHADOWED 0x80000000u // in FTileLights::Lights: it casts no shadow and gets no ray
 #define TILE_LIGHT_NONE 0xffffffffu // in FTileLights::Lights: with LIGHT_MASK, a free slot
+#define TILE_CHOOSES_NOBODY 3u // FTileLights::bChooses: pixels choose of emissive triangles, but none has its turn in this frame
 #define TILE_CHOOSES_REST 2u // FTileLights::bChooses: with LIGHT_MASK, there are more lights than slots; each pixel chooses one of the rest
 
 // A light's number is its index in the table of lights, or this bit and the index of an emissive triangle. Where triangles are weighed
@@ -94,7 +95,8 @@ LANTERN_ASSERT_SIZE(FLitPixel, 12);
 struct FEmitterHeader
 {
 	float ReflectedRoughness; // rougher surfaces have no reflections traced; negative: none have
-	uint Pad[3];
+	float Dim; // see DimEmitter
+	uint Pad[2];
 };
 LANTERN_ASSERT_SIZE(FEmitterHeader, 16);
 
@@ -102,10 +104,10 @@ struct FEmitterClustersConstants
 {
 	FPassConstants Pass;
 	FAddress Clusters; // FEmitterHeader, and what follows
-	float ReflectedRoughness;
-	uint Count; // of clusters
+	float ReflectedRoughness, Dim;
+	uint Count, Pad; // Count: of clusters
 };
-LANTERN_ASSERT_SIZE(FEmitterClustersConstants, 32);
+LANTERN_ASSERT_SIZE(FEmitterClustersConstants, 40);
 
 #define EMITTER_GROUP_SIZE 64u // clusters that a work group does
 
@@ -118,10 +120,10 @@ struct FLocalRequestsConstants
 {
 	FPassConstants Pass;
 	FAddress TileLights; // FTileLights[], row by row
-	FAddress Choices;    // FLightChoice[choices][pixels]; 0 without MANY_LIGHTS
+	FAddress Choices;    // FLightChoice[choices][pixels]; 0 without MANY_LIGHTS. LISTS_CHOOSERS: FThreadList of tiles, each a work group
 	FAddress Requests;   // FRayRequest[Capacity]
 	FAddress Counters;   // FRayQueueCounters
-	FAddress Answers;    // uint[pixels], to start with none; 0: they have started
+	FAddress Answers;    // uint[pixels], to start with none; 0: they have started. Choose.comp: FThreadList of tiles
 	uint Capacity;
 	uint Depth;   // sampled index
 	uint Normals; // sampled index: shading and geometric normal, both octahedral

@@ -7,6 +7,11 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileRef { FTile Data[]; };
 
+// The tile of a work group.
+#ifndef GROUP_TILE
+#define GROUP_TILE gl_WorkGroupID.xy
+#endif
+
 uint TileIndex(FViewConstants View, uvec2 Tile) { return Tile.y * ((View.Width + TILE_SIZE - 1u) / TILE_SIZE) + Tile.x; }
 
 // Whether a tile's mask has the bit of the pixel at Place.

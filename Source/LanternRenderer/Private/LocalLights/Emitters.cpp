@@ -16,6 +16,10 @@ namespace
 TRTConsoleVariable<bool> CVarEmissive("r.RT.Lights.Emissive", true,
     "Emissive triangles shine as local lights do, with shadow rays of their own. If off, only global illumination and reflections find "
     "them.");
+TRTConsoleVariable<float> CVarDim("r.RT.Lights.DimEmitters", 0.0156f,
+    "Brightness of a pixel's light from emissive triangles, as a share of white, below which it asks for a ray only in some frames. Its "
+    "mean stays. Smaller values have less noise where light is dim, and more rays. 0: it asks in all frames.",
+    {0.0, 1.0});
 TRTConsoleVariable<bool> CVarTwice("r.RT.Debug.Lights.EmissiveTwice", false,
     "Planted fault. Global illumination and reflections count emissive triangles in full, as if local lights had none.");
 
@@ -76,6 +80,7 @@ FGraphBuffer AddEmitterClusters(FFrameContext& Context, const FGBuffer& GBuffer)
 			C.Pass = Frame->Pass;
 			C.Clusters = GetAddress(Pass, Clusters);
 			C.ReflectedRoughness = GetReflectedRoughness({Frame->Device.GetCapabilities(), Frame->Facts, Frame->Signals});
+			C.Dim = CVarDim.GetOnRenderThread();
 			C.Count = Count;
 			DispatchMany(Pass, Pipeline, C, DivideUp(Count, EMITTER_GROUP_SIZE));
 		};

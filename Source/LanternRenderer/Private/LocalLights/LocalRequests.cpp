@@ -11,6 +11,7 @@
 #include "LocalLights/LightMask.h"
 #include "LocalLights/LightRegions.h"
 #include "LocalLights/SecondRays.h"
+#include "Rays/ThreadList.h"
 #include "TwoFrames.h"
 
 namespace Lantern
@@ -53,14 +54,29 @@ uint32_t GetChosen(const FSceneFacts& Facts, uint32_t Exact)
 
 bool HasRegions(const FSceneFacts& Facts, uint32_t Exact) { return IsGuided(Facts, Exact) && NeedsLightRegions(Facts); }
 
-FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
+/// Whether tiles whose pixels choose are listed, and do so in a pass of their own. Slots of a light mask depend on what is chosen.
+bool ListsChoosers(const FSceneFacts& Facts, uint32_t Exact) { return IsGuided(Facts, Exact) && !Facts.bLightMask; }
+
+FShaderDefines MakeRequestsDefines(const FSceneFacts& Facts, uint32_t Exact)
 {
 	FShaderDefines Defines = MakeChoiceDefines(Facts, Exact);
 	if (Facts.bMaskAlone) { Defines.emplace_back("MASK_ALONE", "1"); }
 	if (Facts.bLightMask) { AddMaskOrderDefine(Defines); }
 	if (!CVarCellTarget.GetOnRenderThread()) { Defines.emplace_back("ONE_SAMPLER", "1"); }
 	if (!CVarWeight.GetOnRenderThread()) { Defines.emplace_back("NO_CHOICE_WEIGHT", "1"); }
+	return Defines;
+}
+
+FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
+{
+	FShaderDefines Defines = MakeRequestsDefines(Facts, Exact);
+	if (ListsChoosers(Facts, Exact)) { Defines.emplace_back("LISTS_CHOOSERS", "1"); }
 	return MakeComputeSource("LocalLights/Requests.comp", std::move(Defines));
+}
+
+FShaderSource MakeChooseSource(const FSceneFacts& Facts, uint32_t Exact)
+{
+	return MakeComputeSource("LocalLights/Choose.comp", MakeRequestsDefines(Facts, Exact));
 }
 
 FShaderSource MakeShareSource()
@@ -84,6 +100,7 @@ struct FRequestsPass
 	bool bPreviousGuide = false;
 	FGraphTexture PreviousLights; ///< FQueuedRays::MaskLights, of the previous frame
 	uint32_t Tiles = 0;
+	FGraphBuffer Choosers; ///< FThreadList of tiles whose pixels choose in a pass of their own; invalid: they do so at once
 	bool IsGuided() const { return Guide.IsValid(); }
 };
 
@@ -112,7 +129,6 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 {
 	C.BaseColor = GetSampledIndex(Pass, Inputs.GBuffer.BaseColor);
 	C.Material = GetSampledIndex(Pass, Inputs.GBuffer.Material);
-	C.Lit = GetAddress(Pass, Inputs.Lit);
 	C.Guide = GetAddress(Pass, Inputs.Guide) + Inputs.GuideOffset;
 	const uint32_t Previous = Inputs.GuideOffset > 0 ? PREVIOUS_GUIDE_BEFORE : PREVIOUS_GUIDE_BEHIND;
 	C.PreviousGuide = Inputs.bPreviousGuide ? Previous : PREVIOUS_GUIDE_NONE;
@@ -122,7 +138,8 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 	C.GuideKept = std::exp(-Frame.View.DeltaSeconds / std::max(CVarGuideSeconds.GetOnRenderThread(), 1e-6f));
 }
 
-void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
+/// Declares what GUIDED shaders read and write. bChoose: pixels choose there.
+void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs, bool bChoose)
 {
 	for (const FGraphTexture Texture : {Inputs.GBuffer.BaseColor, Inputs.GBuffer.Material}) // a light mask alone needs none
 	{
@@ -131,7 +148,7 @@ void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
 	if (Inputs.bPreviousGuide) { Builder.Read(Inputs.Guide, ERTAccess::StorageRead); }
 	if (Inputs.Regions.IsValid()) { Builder.Read(Inputs.Regions, ERTAccess::ShaderRead); }
 	Builder.Write(Inputs.Guide, ERTAccess::StorageWrite);
-	if (Inputs.Lit.IsValid()) { Builder.Write(Inputs.Lit, ERTAccess::StorageWrite); }
+	if (Inputs.Lit.IsValid() && bChoose) { Builder.Write(Inputs.Lit, ERTAccess::StorageWrite); }
 	if (Inputs.Emitters.IsValid()) { Builder.Read(Inputs.Emitters, ERTAccess::ShaderRead); }
 }
 
@@ -156,34 +173,72 @@ void DeclareQueue(FPassBuilder& Builder, const FRayQueue& Queue, bool bFirst)
 	}
 }
 
+void DeclareSurfaces(FPassBuilder& Builder, const FRequestsPass& Inputs)
+{
+	for (const FGraphTexture Texture : {Inputs.GBuffer.Depth, Inputs.GBuffer.Normals, Inputs.Channels})
+	{
+		if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+	}
+}
+
+void SetSurfaces(FPassContext& Pass, const FRequestsPass& Inputs, FLocalRequestsConstants& C)
+{
+	C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
+	C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
+	C.Channels = GetSampledIndex(Pass, Inputs.Channels);
+}
+
 void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRequestsPass& Inputs)
 {
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass((Inputs.Queue.Name + "Lights").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(Inputs.GBuffer.Depth, ERTAccess::ShaderRead);
-		Builder.Read(Inputs.GBuffer.Normals, ERTAccess::ShaderRead);
-		for (const FGraphTexture Texture : {Inputs.Channels, Inputs.PreviousLights})
-		{
-			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-		}
+		DeclareSurfaces(Builder, Inputs);
+		if (Inputs.PreviousLights.IsValid()) { Builder.Read(Inputs.PreviousLights, ERTAccess::ShaderRead); }
 		DeclareQueue(Builder, Inputs.Queue, Inputs.bFirst);
 		Builder.Write(Inputs.TileLights, ERTAccess::StorageWrite);
-		if (Inputs.Choices.IsValid()) { Builder.Write(Inputs.Choices, ERTAccess::StorageWrite); }
+		const bool bLists = Inputs.Choosers.IsValid();
+		if (bLists) { AppendToThreadList(Builder, Inputs.Choosers); }
+		else if (Inputs.Choices.IsValid()) { Builder.Write(Inputs.Choices, ERTAccess::StorageWrite); }
 		if (Inputs.bFirst) { Builder.Write(Inputs.Queue.Answers, ERTAccess::StorageWrite); }
-		if (Inputs.IsGuided()) { DeclareGuide(Builder, Inputs); }
+		if (Inputs.IsGuided()) { DeclareGuide(Builder, Inputs, !bLists); }
 		else if (Inputs.Rays.bMany) { ReadLightCells(Builder, Frame->LightCells, false); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			if (Inputs.bFirst) { StartQueue(Pass, Inputs.Queue); }
 			FLocalRequestsConstants C = MakeConstants(Pass, *Frame, Inputs);
 			C.Answers = Inputs.bFirst ? GetAddress(Pass, Inputs.Queue.Answers) : 0;
-			C.Choices = GetAddress(Pass, Inputs.Choices);
-			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
-			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
-			C.Channels = GetSampledIndex(Pass, Inputs.Channels);
 			C.PreviousLights = GetSampledIndex(Pass, Inputs.PreviousLights);
+			SetSurfaces(Pass, Inputs, C);
 			if (Inputs.IsGuided()) { SetGuide(Pass, *Frame, Inputs, C); }
+			C.Choices = GetAddress(Pass, bLists ? Inputs.Choosers : Inputs.Choices);
+			C.Lit = bLists ? 0 : GetAddress(Pass, Inputs.Lit);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
+		};
+	});
+}
+
+/// Adds the pass in which pixels of listed tiles choose.
+void AddChoosePass(FFrameContext& Context, IRTPipeline* Pipeline, const FRequestsPass& Inputs)
+{
+	const FFrameContext* const Frame = &Context;
+	Context.Graph.AddPass((Inputs.Queue.Name + "LightsChoose").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+		DeclareSurfaces(Builder, Inputs);
+		DeclareQueue(Builder, Inputs.Queue, false);
+		LaunchFromThreadList(Builder, Inputs.Choosers);
+		Builder.Read(Inputs.TileLights, ERTAccess::StorageRead);
+		Builder.Write(Inputs.TileLights, ERTAccess::StorageWrite);
+		Builder.Read(Inputs.Guide, ERTAccess::StorageRead); // other tiles have theirs
+		Builder.Write(Inputs.Choices, ERTAccess::StorageWrite);
+		DeclareGuide(Builder, Inputs, true);
+		Builder.AllowAsync();
+		return [=](FPassContext& Pass) {
+			FLocalRequestsConstants C = MakeConstants(Pass, *Frame, Inputs);
+			SetSurfaces(Pass, Inputs, C);
+			SetGuide(Pass, *Frame, Inputs, C);
+			C.Choices = GetAddress(Pass, Inputs.Choices);
+			C.Lit = GetAddress(Pass, Inputs.Lit);
+			C.Answers = GetAddress(Pass, Inputs.Choosers);
+			DispatchThreadList(Pass, Pipeline, Inputs.Choosers, C);
 		};
 	});
 }
@@ -241,6 +296,7 @@ bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Li
 void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vector<FShaderSource>& Out)
 {
 	Out.push_back(MakeRequestsSource(Facts, Exact));
+	if (ListsChoosers(Facts, Exact)) { Out.push_back(MakeChooseSource(Facts, Exact)); }
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
 	ListEmitterShaders(Facts, Out);
 	if (HasRegions(Facts, Exact)) { Out.push_back(MakeLightRegionsSource(Facts)); }
@@ -254,7 +310,9 @@ bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 	const bool bSecond = !HasLocalRays(Context.Facts) || !WantsSecondRays() ||
 	                     RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Exact)));
 	const bool bListed = !HasRegions(Context.Facts, Exact) || RequireCompute(Context, MakeLightRegionsSource(Context.Facts));
-	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bListed && bSecond && AreEmittersReady(Context);
+	const bool bChosen = !ListsChoosers(Context.Facts, Exact) || RequireCompute(Context, MakeChooseSource(Context.Facts, Exact));
+	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bChosen && bShared && bListed && bSecond &&
+	       AreEmittersReady(Context);
 }
 
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays)
@@ -277,8 +335,13 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 		}
 	}
 	Inputs.Emitters = AddEmitterClusters(Context, GBuffer);
+	if (Rays.bMany && ListsChoosers(Context.Facts, Rays.Exact))
+	{
+		Inputs.Choosers = AddThreadList(Context, Inputs.Tiles, (Inputs.Queue.Name + "Choosers").c_str());
+	}
 	Inputs.Channels = RequirePixelChannels(Context, GBuffer);
 	AddRequestsPass(Context, RequireCompute(Context, MakeRequestsSource(Context.Facts, Rays.Exact)), Inputs);
+	if (Inputs.Choosers.IsValid()) { AddChoosePass(Context, RequireCompute(Context, MakeChooseSource(Context.Facts, Rays.Exact)), Inputs); }
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }
 	InOut.Traced.TileLights = Inputs.TileLights;
 	InOut.Traced.Choices = Inputs.Choices;
