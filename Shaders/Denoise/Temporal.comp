@@ -55,6 +55,18 @@ FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSi
 	return Frame.bHasValue ? Blend(Frame, History, Noise) : FillIn(Frame, History, Noise, Unchanged);
 }
 
+#if CHANNELS != 1
+shared uint bLit; // some pixel of the group's tile has a signal
+
+// Called by all threads, with a barrier before. Dim lights seldom ask for rays (r.RT.Lights.DimEmitters): what looks at neighbours is left out.
+bool IsGroupDark(bool bMine)
+{
+	if (bMine) { bLit = 1u; }
+	barrier();
+	return bLit == 0u;
+}
+#endif
+
 #ifdef SPARSE
 shared uint bAnything;
 
@@ -83,13 +95,21 @@ void main()
 	if (!ShowsAnything(Pixel, Size)) { return; }
 #endif
 	StartTouched();
+#if CHANNELS != 1
+	if (gl_LocalInvocationIndex == 0u) { bLit = 0u; }
+#endif
 	FindTurn(View.FrameIndex);
-	LoadTile(Size);
+	bool bLoadedAny = LoadTile(Size);
 	barrier();
 	NoteDistances();
+#if CHANNELS == 1
 	MeasureOutliers();
-#if CHANNELS != 1
-	SumWindowRows();
+#else
+	if (!IsGroupDark(bLoadedAny))
+	{
+		MeasureOutliers();
+		SumWindowRows();
+	}
 #endif
 	barrier();
 	FindTouched(View);
@@ -102,8 +122,12 @@ void main()
 		DrawCertain(Pixel, true);
 		return;
 	}
+#if CHANNELS == 1
 	FFrameEstimate Frame = EstimateFrame();
-#if CHANNELS != 1
+#else
+	FFrameEstimate Frame;
+	if (bLit != 0u) { Frame = EstimateFrame(); }
+	else { Frame = EstimateDarkFrame(); }
 	if (IsCertain(Pixel))
 	{
 		Store(Pixel, FAccumulated(Frame.Value, 0.0, 1.0, Frame.Neighborhood.Mean), Frame.Extent);

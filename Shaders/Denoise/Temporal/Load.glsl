@@ -48,8 +48,10 @@ int GetTileIndex(ivec2 Offset)
 	return P.y * TileSize + P.x;
 }
 
-void LoadTile(ivec2 Size)
+// Returns whether any pixel that the thread has loaded has a signal.
+bool LoadTile(ivec2 Size)
 {
+	bool bAny = false;
 	ivec2 First = ivec2(gl_WorkGroupID.xy) * GroupSize - (WindowRadius + 1);
 	[[dont_unroll]] for (int I = int(gl_LocalInvocationIndex); I < TileSize * TileSize; I += GroupSize * GroupSize)
 	{
@@ -70,8 +72,10 @@ void LoadTile(ivec2 Size)
 #endif
 #if CHANNELS != 1
 		bTileFilled[I] = Texel.w == 2.0;
+		bAny = bAny || GetBrightness(TileSignal[I]) > 0.0;
 #endif
 	}
+	return bAny;
 }
 
 #if CHANNELS != 1

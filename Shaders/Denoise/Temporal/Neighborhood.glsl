@@ -117,4 +117,14 @@ FNeighborhood MeasureNeighborhood()
 	return FNeighborhood(Sum / max(Count, 1.0), OutlierCount > 0.0 ? OutlierSum / OutlierCount : -1.0, max(Count, 1.0));
 }
 
+#if CHANNELS != 1
+// The same where all signals are 0.
+FNeighborhood MeasureDarkNeighborhood()
+{
+	float InverseDepth = TileInverseDepth[GetTileIndex(ivec2(0))], Count = 0.0;
+	for (int I = 0; I < 25; ++I) { Count += IsAtOtherDepth(GetTileIndex(ivec2(I % 5, I / 5) - NeighborhoodRadius), InverseDepth) ? 0.0 : 1.0; }
+	return FNeighborhood(0.0, 0.0, max(Count, 1.0));
+}
+#endif
+
 #endif

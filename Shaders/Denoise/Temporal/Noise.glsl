@@ -95,6 +95,14 @@ FFrameEstimate EstimateFrame()
 #endif
 }
 
+#if CHANNELS != 1
+// The same where the signal is 0 all around.
+FFrameEstimate EstimateDarkFrame()
+{
+	const FWindow Dark = FWindow(FSignal(0.0), FSignal(0.0), 0.0);
+	return FFrameEstimate(FSignal(0.0), HasValue(GetTileIndex(ivec2(0))), Dark, MeasureDarkNeighborhood(), 0.0, 1.0, MaxHalf);
+}
+#endif
 #endif
 
 // 0: the transition is an edge; 1: it is a soft penumbra.
