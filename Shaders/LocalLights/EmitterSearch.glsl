@@ -74,6 +74,9 @@ FEmitterSearch MakeEmitterSearch(FViewConstants View, uvec2 Pixel, bool bSurface
 	FEmitterSearch Search;
 	Search.bLooks = bTile && U * TileChance < Chance;
 	Search.Scale = 1.0 / max(Chance, 1.0e-6);
+#ifdef NO_CHOICE_WEIGHT // r.RT.Debug.Lights.Weight
+	Search.Scale = 1.0;
+#endif
 	Search.Candidates = clamp(uint(Brightness), 1u, MostCandidates());
 	return Search;
 }

@@ -150,6 +150,34 @@ TEST_F(FEmittersTest, ThousandsAsTheReference)
 	EXPECT_EQ(GetWorld().GetFacts().EmissiveTriangles, 16000u);
 }
 
+// Where emitters are dim, pixels ask for rays in some frames alone, which stand for the others. Planted fault: they stand for one.
+TEST_F(FEmittersTest, DimLightIsAskedForInTurn)
+{
+	ASSERT_TRUE(LoadPanels());
+	SetVariable("r.RT.Rays.Count", "1");
+	const FView View = LookAtStage(48, 27);
+	constexpr uint32_t Frames = 384, Batches = 6;
+	FRenderer& Renderer = GetEngine().GetRenderer();
+	const auto Measure = [&](const char* Dim, double& OutRays) {
+		SetVariable("r.RT.Lights.DimEmitters", Dim);
+		EXPECT_OK(Renderer.WaitForAll());
+		const uint64_t Before = Renderer.GetRayCounts().Total;
+		const FEstimate Light = EstimateFrames(ESignal::LocalDiffuse, View, Frames, Batches);
+		EXPECT_OK(Renderer.WaitForAll());
+		OutRays = double(Renderer.GetRayCounts().Total - Before) / (double(View.Width) * View.Height * Frames * Batches);
+		return Light;
+	};
+	double AllRays = 0.0, SomeRays = 0.0, FaultyRays = 0.0;
+	const FEstimate All = Measure("0", AllRays), Some = Measure("1", SomeRays);
+	const double Sigma = std::hypot(All.StandardError, Some.StandardError) / All.Mean;
+	PrintFigure(fmt::format("dim light: {:.2f} rays a pixel instead of {:.2f}, mean {:.4f} times (statistical error {:.4f})", SomeRays,
+	    AllRays, Some.Mean / All.Mean, Sigma));
+	EXPECT_LT(SomeRays, 0.6 * AllRays);
+	EXPECT_NEAR(Some.Mean / All.Mean, 1.0, 0.005 + 3.0 * Sigma);
+	SetVariable("r.RT.Debug.Lights.Weight", "0");
+	EXPECT_LT(Measure("1", FaultyRays).Mean, 0.8 * All.Mean);
+}
+
 // What the alpha test cuts away does not shine, and both sides do.
 TEST_F(FEmittersTest, HalfCutPanelAsTheReference)
 {

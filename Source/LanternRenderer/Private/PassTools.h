@@ -13,6 +13,9 @@ namespace Lantern
 
 using FShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
+/// Passes of paths, which may run at the same time (FPassBuilder::RunBeside): few of their threads live long, and leave the device idle.
+inline constexpr const char* PathsGroup = "Paths";
+
 constexpr uint32_t DivideUp(uint32_t Value, uint32_t By) { return (Value + By - 1) / By; }
 
 FShaderSource MakeComputeSource(std::string Path, FShaderDefines Defines = {});

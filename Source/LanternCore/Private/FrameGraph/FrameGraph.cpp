@@ -32,6 +32,8 @@ public:
 	void AllowAsync() override { Pass.bAllowAsync = true; }
 	void Write(FGraphToken Token) override { Pass.TokenWrites.push_back(Token.Index); }
 	void Without(FGraphToken Token) override { Pass.TokensUnused.push_back(Token.Index); }
+	void RunBeside(const char* Group) override { Pass.Group = Group; }
+	void ShareApart(FGraphBuffer Buffer) override { Add(Buffer.Index, false).bApart = true; }
 	void NeverCull() override { Pass.bNeverCull = true; }
 	void Keep(FGraphTexture Texture) override { AddKeep(Texture.Index, true); }
 	void Keep(FGraphBuffer Buffer) override { AddKeep(Buffer.Index, false); }
@@ -246,12 +248,15 @@ FRTStatus FFrameGraph::Compile()
 	{
 		Impl->Cull();
 		Impl->AssignQueues();
+		Impl->GatherGroups();
 		Impl->FindLifetimes();
+		Impl->ExtendLifetimesOverGroups();
 		Impl->CompileStatus = Impl->Allocate();
 	}
 	if (Impl->CompileStatus)
 	{
 		Impl->PlaceBarriers();
+		Impl->HoistBarriersOfGroups();
 		Impl->OrderTokens();
 	}
 	return Impl->CompileStatus;

@@ -164,6 +164,7 @@ void FFrameGraph::FImpl::FindLifetimes()
 
 FRTStatus FFrameGraph::FImpl::Allocate()
 {
+	std::vector<std::vector<FPooledResource*>> Ending(Passes.size()); // by the last pass: of a group, it may be one that does not use it
 	for (uint32_t Index = 0; Index < Passes.size(); ++Index)
 	{
 		if (Passes[Index].bCulled) { continue; }
@@ -177,19 +178,16 @@ FRTStatus FFrameGraph::FImpl::Allocate()
 				return FRTStatus::Error(Status.Code, "Frame graph: cannot create %s for pass '%s': %s", Resource.Describe().c_str(),
 				    Passes[Index].Name.c_str(), Status.Message);
 			}
+			Ending[Resource.LastPass].push_back(Resource.Pooled.get());
 		}
-		for (const FPassUse& Use : Passes[Index].Uses)
-		{
-			const FGraphResource& Resource = Resources[Use.Resource];
-			if (!Resource.bImported && Resource.LastPass == Index) { Resource.Pooled->bBusy = false; }
-		}
+		for (FPooledResource* const Pooled : Ending[Index]) { Pooled->bBusy = false; }
 	}
 	return FRTStatus::Success();
 }
 
 void FFrameGraph::FImpl::PlaceBarriers()
 {
-	std::vector<std::vector<std::pair<uint32_t, ERTAccess>>> Uses(Resources.size());
+	std::vector<std::vector<FStateUse>> Uses(Resources.size());
 	// In order of first use, so that the earlier of two users of one pooled resource comes first.
 	std::vector<uint32_t> Order;
 	for (uint32_t Index = 0; Index < Passes.size(); ++Index)
@@ -198,7 +196,7 @@ void FFrameGraph::FImpl::PlaceBarriers()
 		{
 			if (Passes[Index].bCulled) { continue; }
 			if (Uses[Use.Resource].empty()) { Order.push_back(Use.Resource); }
-			Uses[Use.Resource].emplace_back(Index, Use.GetAccess());
+			Uses[Use.Resource].push_back({Index, Use.GetAccess(), Use.bApart});
 		}
 	}
 	for (const uint32_t Resource : Order) { PlaceBarriersOf(Resource, Uses[Resource]); }
@@ -213,7 +211,13 @@ void FFrameGraph::FImpl::PlaceBarriers()
 	}
 }
 
-void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::pair<uint32_t, ERTAccess>>& Uses)
+bool FFrameGraph::FImpl::AreApart(const FStateUse& A, const FStateUse& B) const
+{
+	const auto IsRun = [&](const FGroupRun& Run) { return Run.Contains(A.Pass) && Run.Contains(B.Pass); };
+	return A.bApart && B.bApart && A.Access == B.Access && std::any_of(GroupRuns.begin(), GroupRuns.end(), IsRun);
+}
+
+void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<FStateUse>& Uses)
 {
 	const FGraphResource& Resource = Resources[Index];
 	const auto SharesLayout = [&](ERTAccess A, ERTAccess B) { return !Resource.bTexture || GetLayoutClass(A) == GetLayoutClass(B); };
@@ -230,21 +234,22 @@ void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::
 	for (size_t Begin = 0; Begin < Uses.size();)
 	{
 		// Consecutive reads become one state, which one barrier enters.
-		ERTAccess Access = Uses[Begin].second;
+		ERTAccess Access = Uses[Begin].Access;
 		size_t End = Begin + 1;
-		while (!IsWrite(Access) && End < Uses.size() && !IsWrite(Uses[End].second) && SharesLayout(Access, Uses[End].second))
+		while (!IsWrite(Access) && End < Uses.size() && !IsWrite(Uses[End].Access) && SharesLayout(Access, Uses[End].Access))
 		{
-			Access |= Uses[End++].second;
+			Access |= Uses[End++].Access;
 		}
+		while (End < Uses.size() && AreApart(Uses[Begin], Uses[End])) { ++End; }
 		const bool bCovered = !IsWrite(State) && !IsWrite(Access) && Contains(State, Access) && SharesLayout(State, Access);
 		const bool bFresh = State == ERTAccess::None && !Resource.bTexture;
 		if (!bCovered)
 		{
-			const bool bOtherQueue = EnterState(Users, Uses[Begin].first);
-			if (!bFresh) { Passes[Uses[Begin].first].Barriers.push_back({Index, State, Access, bOtherQueue}); }
+			const bool bOtherQueue = EnterState(Users, Uses[Begin].Pass);
+			if (!bFresh) { Passes[Uses[Begin].Pass].Barriers.push_back({Index, State, Access, bOtherQueue}); }
 			State = Access;
 		}
-		for (; Begin < End; ++Begin) { UseState(Users, Uses[Begin].first); }
+		for (; Begin < End; ++Begin) { UseState(Users, Uses[Begin].Pass); }
 	}
 	if (Resource.Pooled) { PooledAccess[Resource.Pooled.get()] = State; }
 	// Leaves exactly After, even if the current state includes it: the engine's next barrier names After alone.

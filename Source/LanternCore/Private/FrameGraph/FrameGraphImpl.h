@@ -59,7 +59,7 @@ struct FTimedFrame
 {
 	FQueueQueries Queues[PassQueueCount];
 	std::vector<FPassTiming> Passes;
-	std::vector<uint32_t> Places; ///< by pass that runs: its place among those of its queue
+	std::vector<uint32_t> Places; ///< by entry of Passes: its place among those of its queue; NoPass: the time is its group's
 	uint64_t Serial = 0;
 	uint64_t RecordedNs = 0; ///< by FTaskTrace::GetNow; 0: the trace was off
 	int64_t TraceFrame = 0;
@@ -123,6 +123,7 @@ struct FPassUse
 	uint32_t Resource = 0;
 	ERTAccess Read = ERTAccess::None, Write = ERTAccess::None; ///< as declared by Read() and Write()
 	bool bIfRead = false;                                      ///< see FPassBuilder::WriteIfRead
+	bool bApart = false;                                       ///< see FPassBuilder::ShareApart
 	ERTAccess GetAccess() const { return Read | Write; }
 };
 
@@ -136,6 +137,7 @@ struct FGraphBarrier
 struct FGraphPass
 {
 	std::string Name;
+	std::string Group; ///< see FPassBuilder::RunBeside
 	std::vector<FPassUse> Uses;
 	std::vector<uint32_t> Keeps;         ///< resources, see FPassBuilder::Keep
 	std::vector<uint32_t> Dropped;       ///< resources that WriteIfRead declared and nobody reads
@@ -154,6 +156,16 @@ struct FGraphPass
 	const FPassUse* Find(uint32_t Resource) const;
 };
 
+/// Passes that lie together and run at the same time.
+struct FGroupRun
+{
+	uint32_t First = 0, Last = 0;
+	bool Contains(uint32_t Pass) const { return Pass >= First && Pass <= Last; }
+};
+
+/// Whether the later pass must stay behind the earlier one because of what tokens stand for.
+bool AreOrderedByTokens(const FGraphPass& Earlier, const FGraphPass& Later);
+
 struct FFrameGraph::FImpl
 {
 	explicit FImpl(FFrameGraphResources::FImpl& InShared) : Shared(InShared) {}
@@ -170,7 +182,16 @@ struct FFrameGraph::FImpl
 	void FindLifetimes();
 	FRTStatus Allocate();
 	void PlaceBarriers();
-	void PlaceBarriersOf(uint32_t Resource, const std::vector<std::pair<uint32_t, ERTAccess>>& Uses);
+	/// How a pass uses a resource.
+	struct FStateUse
+	{
+		uint32_t Pass = 0;
+		ERTAccess Access = ERTAccess::None;
+		bool bApart = false;
+	};
+	/// Whether two passes of one run need no barrier between them though they write.
+	bool AreApart(const FStateUse& A, const FStateUse& B) const;
+	void PlaceBarriersOf(uint32_t Resource, const std::vector<FStateUse>& Uses);
 
 	// FrameGraphQueues.cpp:
 	/// Those that use a resource in its present state.
@@ -190,6 +211,16 @@ struct FFrameGraph::FImpl
 	void UseState(FStateUsers& Users, uint32_t Pass);
 	void OrderTokens();
 
+	// FrameGraphGroups.cpp:
+	/// Whether the later pass must stay behind the earlier one.
+	bool AreOrdered(const FGraphPass& Earlier, const FGraphPass& Later) const;
+	/// Moves a pass behind the last of a run, and before the first what it needs. False: something of the run must be before that.
+	bool JoinGroup(FGroupRun& Run, uint32_t Joining);
+	void GatherGroups();
+	/// No member of a group may have the memory of another.
+	void ExtendLifetimesOverGroups();
+	void HoistBarriersOfGroups();
+
 	// FrameGraphRecord.cpp:
 	using FGetFailure = std::function<FRTStatus()>;
 	/// Consecutive passes that one thread records into one list.
@@ -204,6 +235,10 @@ struct FFrameGraph::FImpl
 	FRTStatus Record(const std::vector<FSegment>& Segments, const FGetFailure& GetFailure);
 	/// Resets the queries of each queue in its first list. OutIndices: by pass, its place among those that run.
 	FTimedFrame& BeginTiming(const std::vector<FSegment>& Segments, std::vector<uint32_t>& OutIndices);
+	/// Lists what is timed: passes that run, and groups, each before its first pass. OutCounts: pairs of timestamps, by queue.
+	void ListTimed(FTimedFrame& Out, std::vector<uint32_t>& OutIndices, uint32_t (&OutCounts)[PassQueueCount]) const;
+	/// Null: the pass runs by itself.
+	const FGroupRun* FindRun(uint32_t Pass) const;
 	void RecordSegment(
 	    const FSegment& Segment, FTimedFrame& Frame, const std::vector<uint32_t>& Indices, const FGetFailure& GetFailure) const;
 	void RecordPass(IRTCommandList& Commands, const FGraphPass& Pass, FPassTiming& Timing, IRTQueryPool* Queries, uint32_t Query) const;
@@ -212,6 +247,7 @@ struct FFrameGraph::FImpl
 	FFrameGraphResources::FImpl& Shared;
 	std::vector<FGraphResource> Resources;
 	std::vector<FGraphPass> Passes;
+	std::vector<FGroupRun> GroupRuns;
 	std::vector<FGraphBarrier> FinalBarriers;
 	std::vector<FGraphSubmission> Submissions;
 	uint32_t TokenCount = 0;

@@ -30,7 +30,8 @@ bool IsNamed(const std::string& List, const std::string& Name)
 	}
 	return false;
 }
-/// Whether the later pass must stay behind the earlier one.
+} // namespace
+
 bool AreOrderedByTokens(const FGraphPass& Earlier, const FGraphPass& Later)
 {
 	const auto Touches = [](const FGraphPass& Pass, uint32_t Token) {
@@ -41,7 +42,6 @@ bool AreOrderedByTokens(const FGraphPass& Earlier, const FGraphPass& Later)
 	};
 	return WritesUsed(Earlier, Later) || WritesUsed(Later, Earlier);
 }
-} // namespace
 
 ERTQueue FindAheadQueue(const IRTDevice& Device)
 {

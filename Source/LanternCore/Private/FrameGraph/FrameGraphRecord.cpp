@@ -123,24 +123,56 @@ void FFrameGraph::FImpl::RecordSegment(
 		if (!GetFailure()) { return; }
 		IRTQueryPool* const Queries = Frame.Queues[static_cast<size_t>(Passes[Index].Queue)].Pool.Get();
 		const uint32_t Place = Indices[Index];
-		RecordPass(*Segment.List, Passes[Index], Frame.Passes[Place], Queries, 2 * Frame.Places[Place]);
+		const FGroupRun* const Run = FindRun(Index);
+		if (!Run)
+		{
+			RecordPass(*Segment.List, Passes[Index], Frame.Passes[Place], Queries, 2 * Frame.Places[Place]);
+			continue;
+		}
+		// A timestamp waits for all before it, and what comes behind would wait with it.
+		const uint32_t OfRun = Frame.Places[Indices[Run->First] - 1];
+		if (Queries && Index == Run->First) { Segment.List->WriteTimestamp(Queries, 2 * OfRun); }
+		RecordPass(*Segment.List, Passes[Index], Frame.Passes[Place], nullptr, 0);
+		if (Queries && Index == Run->Last) { Segment.List->WriteTimestamp(Queries, 2 * OfRun + 1); }
+	}
+}
+
+const FGroupRun* FFrameGraph::FImpl::FindRun(uint32_t Pass) const
+{
+	const auto It = std::find_if(GroupRuns.begin(), GroupRuns.end(), [&](const FGroupRun& Run) { return Run.Contains(Pass); });
+	return It != GroupRuns.end() ? &*It : nullptr;
+}
+
+void FFrameGraph::FImpl::ListTimed(FTimedFrame& Out, std::vector<uint32_t>& OutIndices, uint32_t (&OutCounts)[PassQueueCount]) const
+{
+	OutIndices.assign(Passes.size(), 0);
+	Out.Passes.clear();
+	Out.Places.clear();
+	const auto Add = [&](const std::string& Name, ERTQueue Queue, bool bTimed) {
+		FPassTiming& Timing = Out.Passes.emplace_back();
+		Timing.Name = Name;
+		Timing.GpuMs = -1.0;
+		Timing.Queue = Queue;
+		Out.Places.push_back(bTimed ? OutCounts[static_cast<size_t>(Queue)]++ : NoPass);
+	};
+	for (uint32_t Index = 0; Index < Passes.size(); ++Index)
+	{
+		if (Passes[Index].bCulled) { continue; }
+		const FGroupRun* const Run = FindRun(Index);
+		if (Run && Run->First == Index) { Add(Passes[Index].Group, Passes[Index].Queue, true); }
+		OutIndices[Index] = static_cast<uint32_t>(Out.Passes.size());
+		Add(Passes[Index].Name, Passes[Index].Queue, !Run);
 	}
 }
 
 FTimedFrame& FFrameGraph::FImpl::BeginTiming(const std::vector<FSegment>& Segments, std::vector<uint32_t>& OutIndices)
 {
-	std::vector<uint32_t> Places;
+	FTimedFrame Timed;
 	uint32_t Counts[PassQueueCount] = {};
-	OutIndices.assign(Passes.size(), 0);
-	for (uint32_t Index = 0; Index < Passes.size(); ++Index)
-	{
-		if (Passes[Index].bCulled) { continue; }
-		OutIndices[Index] = static_cast<uint32_t>(Places.size());
-		Places.push_back(Counts[static_cast<size_t>(Passes[Index].Queue)]++);
-	}
+	ListTimed(Timed, OutIndices, Counts);
 	FTimedFrame& Frame = Shared.BeginTiming(Counts);
-	Frame.Passes.resize(Places.size());
-	Frame.Places = std::move(Places);
+	Frame.Passes = std::move(Timed.Passes);
+	Frame.Places = std::move(Timed.Places);
 	bool bReset[PassQueueCount] = {};
 	for (const FSegment& Segment : Segments)
 	{

@@ -152,6 +152,11 @@ bool FFrameGraphResources::FImpl::ReadTimes(FTimedFrame& Frame, uint32_t Queue, 
 	{
 		FPassTiming& Pass = Frame.Passes[I];
 		if (static_cast<uint32_t>(Pass.Queue) != Queue) { continue; }
+		if (Frame.Places[I] == NoPass)
+		{
+			Pass.GpuMs = 0.0;
+			continue;
+		}
 		const uint64_t Begin = Times[2 * Frame.Places[I]], End = Times[2 * Frame.Places[I] + 1];
 		Pass.GpuMs = End > Begin ? static_cast<double>(End - Begin) * 1e-6 : 0.0;
 		Pass.BeginMs = Begin > Times[0] ? static_cast<double>(Begin - Times[0]) * 1e-6 : 0.0;
@@ -173,7 +178,7 @@ static void TraceFrame(const FTimedFrame& Frame, const uint64_t (&FirstNs)[PassQ
 	for (const FPassTiming& Pass : Frame.Passes)
 	{
 		const auto Queue = static_cast<uint32_t>(Pass.Queue);
-		if (FirstNs[Queue] == 0 || Pass.GpuMs < 0.0) { continue; }
+		if (FirstNs[Queue] == 0 || Pass.BeginMs < 0.0) { continue; } // what ran in a group has no time of its own
 		const uint64_t Begin = FirstNs[Queue] + static_cast<uint64_t>(Pass.BeginMs * 1e6);
 		FTaskTrace::RecordOnDevice(Lanes[Queue], Pass.Name, Begin, Begin + static_cast<uint64_t>(Pass.GpuMs * 1e6), Frame.TraceFrame);
 	}

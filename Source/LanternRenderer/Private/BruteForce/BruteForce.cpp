@@ -198,6 +198,7 @@ void AddPathsPass(const FBruteForcePass& Settings, FFrameContext& Context, const
 		ReadLightCells(Builder, LightCells, true);
 		ReadRadianceCells(Builder, Paths.RadianceCells);
 		Builder.AllowAsync();
+		Builder.RunBeside(PathsGroup);
 		return [=, Frame = &Context, &Settings](FPassContext& Pass) { RecordPaths(Pass, *Frame, Settings, GBuffer, Paths, bDeferred); };
 	});
 }

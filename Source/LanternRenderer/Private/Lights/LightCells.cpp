@@ -385,7 +385,11 @@ void ReadLightCells(FPassBuilder& Builder, const FLightCellsOfFrame& Cells, bool
 {
 	if (!Cells.Buffer.IsValid()) { return; }
 	Builder.Read(Cells.Buffer, bRequests ? ERTAccess::StorageRead : ERTAccess::ShaderRead);
-	if (bRequests) { Builder.Write(Cells.Buffer, ERTAccess::StorageWrite); }
+	if (bRequests)
+	{
+		Builder.Write(Cells.Buffer, ERTAccess::StorageWrite);
+		Builder.ShareApart(Cells.Buffer); // cells are asked for by atomics
+	}
 	if (Cells.Counts.IsValid()) { Builder.Keep(Cells.Counts); }
 }
 

@@ -284,6 +284,9 @@ void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells)
 	Builder.Read(Cells->Table, ERTAccess::StorageRead);
 	Builder.Write(Cells->Table, ERTAccess::StorageWrite);
 	Builder.Write(Cells->Work, ERTAccess::StorageWrite);
+	// Each voter has a place of its own, and cells are told that they are used by all at once.
+	Builder.ShareApart(Cells->Table);
+	Builder.ShareApart(Cells->Work);
 	Builder.Keep(Cells->Table);
 }
 

@@ -191,6 +191,7 @@ void AddShadowRaysPass(
 			if (Read.IsValid()) { Builder.Keep(Read); }
 		}
 		Builder.AllowAsync();
+		Builder.RunBeside(PathsGroup);
 		return [=](FPassContext& Pass) {
 			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Rays);
 			Constants.Depth = GetSampledIndex(Pass, GBuffer.Depth);

@@ -143,6 +143,7 @@ void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths&
 		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Mirrored}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		Builder.Write(Paths.Hits, ERTAccess::StorageWrite);
 		Builder.AllowAsync();
+		Builder.RunBeside(PathsGroup);
 		return [=, Samples = Paths.Settings.Samples, FullRoughness = GetFullRoughness(Paths.Settings.MaxRoughness)](FPassContext& Pass) {
 			FReflectionPathConstants C{};
 			C.Pass = Frame->Pass;

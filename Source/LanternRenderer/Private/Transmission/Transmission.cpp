@@ -50,6 +50,7 @@ FTransmission AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, cons
 		ReadLightCells(Builder, LightCells, true);
 		for (const FGraphTexture Texture : {Out.Light, Out.Transmittance, Out.Looks}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
+		Builder.RunBeside(PathsGroup);
 		return [=](FPassContext& Pass) {
 			FTransmissionConstants C{};
 			C.Pass = Frame->Pass;

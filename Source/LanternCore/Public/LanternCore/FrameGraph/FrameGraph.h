@@ -96,6 +96,13 @@ public:
 	/// Lets the pass run on ERTQueue::AsyncCompute, beside others, if r.RT.Async names it. It must not raster. What it declares to
 	/// read and write orders it against passes of the other queue.
 	virtual void AllowAsync() = 0;
+	/// Lets the pass run at the same time as others of a group (r.RT.FrameGraph.Groups). The graph moves those together that do not need
+	/// each other, what they need before them, and places no barrier in between. A few long threads then keep no other pass waiting.
+	/// The memory of its results is no other member's. It must record no barrier of its own. Not for passes that raster.
+	virtual void RunBeside(const char* Group) = 0;
+	/// Says that passes of one group write parts of the buffer that no other of them reads or writes, or by atomics in any order.
+	/// After Read and Write, which must be the same in all of them.
+	virtual void ShareApart(FGraphBuffer Buffer) = 0;
 	/// Says that the pass changes what Token stands for. All other passes count as readers, and wait for it if they run on another
 	/// queue.
 	virtual void Write(FGraphToken Token) = 0;
@@ -115,7 +122,7 @@ protected:
 struct FPassTiming
 {
 	std::string Name;
-	double GpuMs = 0.0; ///< < 0: no timestamps on this device
+	double GpuMs = 0.0; ///< < 0: no timestamps on this device. 0 if it ran in a group, which has an entry of its own before (RunBeside)
 	double CpuMs = 0.0; ///< time to record, on the render thread or on a task's
 	uint64_t Rays = 0;
 	ERTQueue Queue = ERTQueue::Graphics;
