@@ -334,14 +334,15 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #ifdef RADIANCE_CELLS
 		vec3 Known;
 		float NearCells = Bounce == 1u ? RadianceNear : 0.0;
+		bool bLast = Bounce >= MaxBounces;
 #ifdef KEEPS_HIT
-		bool bLooksUp = !(bLightsHits && bMirrored);
+		bool bLooksUp = bLast || !(bLightsHits && bMirrored);
 #else
 		const bool bLooksUp = true;
 #endif
-		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, ChooseLevel(Random), Known)) { return Radiance + Throughput * Known; }
+		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, bLast, ChooseLevel(Random), Known)) { return Radiance + Throughput * Known; }
 		Throughput *= TakeRadianceRest();
-		if (Bounce >= MaxBounces || Throughput == vec3(0.0)) { return Radiance; }
+		if (bLast || Throughput == vec3(0.0)) { return Radiance; }
 #ifdef DEFERS_PATHS
 		bRadianceDeferred = true;
 		return Radiance;

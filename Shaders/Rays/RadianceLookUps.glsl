@@ -106,11 +106,15 @@ void SmoothRadiance(FRadianceGrid Grid, FRadianceQuery Query, float U, inout FCe
 #endif
 
 // Returns whether the light that a hit reflects towards V is known: OutLight. P: where the next ray would start. Basis: about the shading
-// normal. LocalV: V in it. NearCells: see FRadianceQuery. Mirrors show what is there, and are followed.
-bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, float NearCells, float U, out vec3 OutLight)
+// normal. LocalV: V in it. NearCells: see FRadianceQuery. Mirrors show what is there, and are followed. bLast: a path ends at them as well, and
+// is not black for it: they reflect the light of their cell as a glossy surface would.
+bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, float NearCells, bool bLast, float U, out vec3 OutLight)
 {
 	OutLight = vec3(0.0);
-	if (RadianceGrid == FAddress(0) || (IsMirror(Brdf) && SpecularProbability(Brdf, LocalV) > 0.0)) { return false; }
+#ifdef NO_LAST_MIRROR // r.RT.Debug.GI.LastMirror
+	bLast = false;
+#endif
+	if (RadianceGrid == FAddress(0) || (!bLast && IsMirror(Brdf) && SpecularProbability(Brdf, LocalV) > 0.0)) { return false; }
 	FRadianceGrid Grid = FRadianceGridRef(RadianceGrid).Data;
 	FRadianceQuery Query = FRadianceQuery(P, Hit.GeometricNormal, Hit.Normal, distance(P, RadianceCamera), Hit.Distance,
 	                                      (Hit.Flags & HIT_FOLIAGE) != 0u, NearCells);

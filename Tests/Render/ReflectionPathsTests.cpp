@@ -153,6 +153,60 @@ TEST_F(FReflectionPathsTest, FlatMirrorFollowsAllMotion)
 	}
 }
 
+// Two mirrors that face each other, with a lit floor between them. Paths follow some of the mirrors, and end in the light around the last:
+// they are not black for it. Planted fault: they are.
+TEST_F(FReflectionPathsTest, FacingMirrorsAreNotBlack)
+{
+	FTestScene Room("facing mirrors");
+	FHostMaterial Silver;
+	Silver.Roughness = 0.0f;
+	Silver.BaseColor = glm::vec4(0.95f, 0.95f, 0.95f, 1.0f);
+	const int32_t Mirror = Room.AddMaterial(Silver);
+	Room.AddNode(Room.AddMesh({FTestScene::MakeFloor(Room.AddLambert(glm::vec3(0.6f), glm::vec3(0), true), 6.0f)}));
+	for (const float Side : {-1.0f, 1.0f})
+	{
+		Room.AddNode(Room.AddMesh({{Mirror, {{4 * Side, 0, Side}, {-4 * Side, 0, Side}, {-4 * Side, 4, Side}, {4 * Side, 4, Side}}}}));
+	}
+	ASSERT_TRUE(Load(std::move(Room.Scene)));
+	SetSun(6.0, 1.0f, {0.3, -1.0, 0.1});
+	SetSky({0.3f, 0.4f, 0.6f});
+	const FView View = LookAt({0, 1.2, 0.6}, {0.15, 0.9, -1}, 0.9f, 96, 64);
+	FReferenceSettings Settings;
+	Settings.View = View;
+	Settings.Samples = 64;
+	Settings.Signal = ESignal::Reflections;
+	Settings.bRasterSurfaces = true;
+	const double Truth = MeanGreen(TraceReference(Settings));
+	const auto Measure = [&] {
+		GetEngine().SetFrameIndex(0);
+		return MeanGreen(RenderSignal(ESignal::Reflections, View, Frames)) / Truth;
+	};
+	const double Right = Measure();
+	SetVariable("r.RT.Debug.GI.LastMirror", "0");
+	const double Fault = Measure();
+	PrintFigure(fmt::format("facing mirrors over the reference: {:.3f}, and {:.3f} if paths end black", Right, Fault));
+	EXPECT_NEAR(Right, 1.0, 0.15);
+	EXPECT_LT(Fault, Right - 0.1);
+}
+
+// A mirror that fills the view shows an even sky as it is, in pictures of any size.
+TEST_F(FReflectionPathsTest, AnyPictureSizeIsComplete)
+{
+	FTestScene Room("mirror alone");
+	FHostMaterial Silver;
+	Silver.Roughness = 0.0f;
+	Room.AddNode(Room.AddMesh({FTestScene::MakeFloor(Room.AddMaterial(Silver), 20.0f)}));
+	ASSERT_TRUE(Load(std::move(Room.Scene)));
+	SetSun(0.0, 0.0f);
+	SetSky({0.5f, 0.5f, 0.5f});
+	for (const auto& [Width, Height] : {std::pair{1u, 1u}, {131u, 73u}, {17u, 1u}, {3u, 40u}})
+	{
+		const FImage Picture = RenderSignal(ESignal::Reflections, LookAt({0, 2, 0}, {0, 0, -2}, 0.6f, Width, Height), 2);
+		ASSERT_EQ(Picture.Width, Width);
+		for (size_t I = 0; I < Picture.Pixels.size(); ++I) { ASSERT_NEAR(Picture.Pixels[I], 0.5f, 0.01f) << Width << " x " << Height; }
+	}
+}
+
 // Spheres of roughness 0 to 1, without the filter. Cells make them off by what they blur.
 TEST_F(FReflectionPathsTest, SpheresAsTheReference)
 {

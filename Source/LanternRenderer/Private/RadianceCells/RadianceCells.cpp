@@ -34,6 +34,8 @@ TRTConsoleVariable<float> CVarSeconds(
 TRTConsoleVariable<bool> CVarCaustics("r.RT.GI.Caustics", false,
     "Mirrors throw the sun on what they light, where paths end in radiance cells. Few paths find the sun that way, so that it shows as "
     "bright blotches.");
+TRTConsoleVariable<bool> CVarLastMirror("r.RT.Debug.GI.LastMirror", true,
+    "Planted fault. If off, paths that end at a mirror are black, as between mirrors that face each other.");
 TRTConsoleVariable<bool> CVarDirection("r.RT.Debug.GI.CellDirection", true,
     "Planted fault. If off, surfaces that paths hit reflect the light of radiance cells as if it came evenly from all directions.");
 TRTConsoleVariable<bool> CVarAskedFirst("r.RT.Debug.GI.AskedFirst", true,
@@ -263,6 +265,7 @@ void AddRadianceCellDefines(FShaderDefines& InOut)
 	if (!CVarCaustics.GetOnRenderThread()) { InOut.emplace_back("NO_CAUSTICS", "1"); }
 	if (!CVarLayers.GetOnRenderThread()) { InOut.emplace_back("NO_LAYERS", "1"); }
 	if (!CVarDirection.GetOnRenderThread()) { InOut.emplace_back("NO_CELL_DIRECTION", "1"); }
+	if (!CVarLastMirror.GetOnRenderThread()) { InOut.emplace_back("NO_LAST_MIRROR", "1"); }
 }
 
 uint32_t CountPathVoters(const FFrameContext& Context) { return std::max(CountBlockVoters(Context), CountScreenProbeVoters(Context)); }
