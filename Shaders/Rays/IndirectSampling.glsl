@@ -44,6 +44,10 @@ uint RecordPath(FGathered Gathered, vec3 N)
 }
 #endif
 
+#ifdef COUNTS_ENDS
+void CountEnd(); // of the includer, behind each path
+#endif
+
 // Returns the mean radiance of a pixel's paths through one lobe. The first direction of a path is an Owen-scrambled Sobol
 // point; the sequence continues from frame to frame. All other random numbers come from an independent stream for each
 // sample. Salt decorrelates passes.
@@ -67,6 +71,9 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 		ChooseGuide(View, Point, Pixel, NextRandom4(Random).xy);
 #endif
 		FGathered Gathered = Gather(Scene, Lobe, Basis, V, P, Point.Ng, SobolOwen2(Index, Seed), MaxBounces, Random);
+#ifdef COUNTS_ENDS
+		CountEnd();
+#endif
 #ifdef GUIDED_PATHS
 		if (Sample == 0u) { PathRecord = RecordPath(Gathered, Point.BentN); }
 #endif

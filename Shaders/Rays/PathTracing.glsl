@@ -4,6 +4,7 @@
 // RADIANCE_CELLS: paths end where a radiance cell knows the light; the thread calls BeginRadianceLookUps first.
 // DEFERS_PATHS: paths also end where none does; bRadianceDeferred then says that what they bring is void.
 // KEEPS_HIT: what the first ray of a gathered path met is kept, behind mirrors as well. See FKeptHit.
+// COUNTS_ENDS: PathEnd says how a gathered path ended, and bPathLit whether light was sampled at its first hit. With ReflectionTypes.h before.
 // ENDS_ON_SCREEN: paths end at surfaces that the frame's picture shows, see Transmission/Looks.glsl, which is included before.
 // NO_CAUSTICS: mirrors show no sun's disk to what they light. Few paths would find it, and each would be a bright blotch.
 // HAS_TRANSMISSION: light shines through some surfaces, see Transmission.glsl. Paths go on behind them, and rays to lights pass straight on.
@@ -89,6 +90,14 @@ FMaterialHit TraceMaterial(FSceneConstants Scene, vec3 Origin, vec3 Direction)
 {
 	return TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, SHOWS_ALL);
 }
+
+#ifdef COUNTS_ENDS
+uint PathEnd = PATH_END_NONE;
+bool bPathLit = false;
+#define NOTE_END(End) PathEnd = End
+#else
+#define NOTE_END(End)
+#endif
 
 #ifdef NO_CAUSTICS
 bool bSeenInMirrors = false; // mirrors alone lie between the camera and the end of the path
@@ -309,7 +318,9 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #ifdef HAS_TRANSMISSION
 		Throughput *= LeftByVolume(Passages, Hit);
 #endif
+		NOTE_END(PATH_END_SKY);
 		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
+		NOTE_END(PATH_END_DARK);
 #ifdef ENDS_ON_SCREEN
 		if (Hit.Transmission <= 0.0 && EndOnScreen(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Throughput)) { return Radiance; }
 #endif
@@ -340,7 +351,11 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #else
 		const bool bLooksUp = true;
 #endif
-		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, bLast, ChooseLevel(Random), Known)) { return Radiance + Throughput * Known; }
+		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, bLast, ChooseLevel(Random), Known))
+		{
+			NOTE_END(bLast && IsMirror(Brdf) ? PATH_END_STAND_IN : PATH_END_CELL);
+			return Radiance + Throughput * Known;
+		}
 		Throughput *= TakeRadianceRest();
 		if (bLast || Throughput == vec3(0.0)) { return Radiance; }
 #ifdef DEFERS_PATHS
@@ -352,6 +367,9 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		bool bCharacter = (Hit.Flags & HIT_CHARACTER) != 0u;
 #else
 		const bool bCharacter = false;
+#endif
+#ifdef COUNTS_ENDS
+		bPathLit = bPathLit || Bounce == 1u;
 #endif
 		uint Shows = bShown ? SHOWS_MIRRORED : SHOWS_NOTHING;
 		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, bCharacter, Hit.Channels, Shows, Random);
@@ -455,6 +473,7 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	vec3 Direction = Gathered.Direction = Basis * Sample.Direction;
 	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Gathered; }
 	FMaterialHit Hit = TraceMaterial(Scene, GatherMask, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
+	NOTE_END(PATH_END_SKY);
 	vec3 Radiance = vec3(0.0);
 #ifdef SHARED_PATHS
 	Gathered.Share = Sample.Weight.x;

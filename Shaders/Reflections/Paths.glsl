@@ -1,6 +1,7 @@
 // Reflections of listed pixels: a path through the specular lobe of each. Smooth surfaces show what they mirror by light sampling, and
 // further surfaces by radiance cells; rough ones show cells. The ray-tracing pipeline and the ray-query path share it.
 // RADIANCE_CELLS: there are cells. Else paths go on for as many bounces as they may.
+// COUNTS_ENDS: what becomes of paths is counted.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
 #ifndef LANTERN_REFLECTION_PATHS_GLSL
 #define LANTERN_REFLECTION_PATHS_GLSL
@@ -18,6 +19,29 @@ float EmissionRoughness; // the thread sets it before
 layout(push_constant, scalar) uniform FPush { FReflectionPathConstants Push; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FReflectionHitRef { FReflectionHit Data[]; };
 
+#ifdef COUNTS_ENDS // r.RT.Reflections.Count
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FReflectionStatisticsRef { FReflectionStatistics Data; };
+
+void CountEnd()
+{
+	if (Push.Statistics == FAddress(0)) { return; }
+	FReflectionStatisticsRef Counts = FReflectionStatisticsRef(Push.Statistics);
+	atomicAdd(Counts.Data.Ends[PathEnd], 1u);
+	if (bPathLit) { atomicAdd(Counts.Data.Lit, 1u); }
+	PathEnd = PATH_END_NONE;
+	bPathLit = false;
+}
+
+void CountPixel(bool bMirror, bool bSharp)
+{
+	if (Push.Statistics == FAddress(0)) { return; } // a variant from before the variable was switched off
+	FReflectionStatisticsRef Counts = FReflectionStatisticsRef(Push.Statistics);
+	if (bMirror) { atomicAdd(Counts.Data.Mirrors, 1u); }
+	else if (bSharp) { atomicAdd(Counts.Data.Sharp, 1u); }
+	else { atomicAdd(Counts.Data.Wide, 1u); }
+}
+#endif
+
 // Number: of the launch's thread.
 void ReflectPixel(uint Number)
 {
@@ -34,6 +58,9 @@ void ReflectPixel(uint Number)
 	bLightsHits = Material.x < Push.LitRoughness;
 	bKeepsEmission = bMirror;
 	EmissionRoughness = Push.EmissionRoughness;
+#ifdef COUNTS_ENDS
+	CountPixel(bMirror, bLightsHits);
+#endif
 #ifdef RADIANCE_CELLS
 	BeginPixelLookUps(Push.RadianceCells, View, uvec2(Pixel), Push.FirstVoter);
 	if (Push.RadianceCells != FAddress(0)) { RadianceNear = FRadianceGridRef(Push.RadianceCells).Data.NearCells; }

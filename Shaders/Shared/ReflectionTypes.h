@@ -44,6 +44,23 @@ struct FReflectionListConstants
 };
 LANTERN_ASSERT_SIZE(FReflectionListConstants, 80);
 
+// How a path of a reflection ended.
+#define PATH_END_NONE 0u     // no direction left the surface
+#define PATH_END_SKY 1u
+#define PATH_END_CELL 2u     // a radiance cell knew the light
+#define PATH_END_STAND_IN 3u // at a mirror, whose cell's light stood in for what it shows
+#define PATH_END_DARK 4u     // where nothing was known, or all was absorbed
+#define PATH_ENDS 5u
+
+// Counts of a frame, with r.RT.Reflections.Count.
+struct FReflectionStatistics
+{
+	uint Mirrors, Sharp, Wide; // pixels that traced, by roughness: IsMirror, below LitRoughness, others
+	uint Lit;                  // paths whose first hit was lit by light sampling
+	uint Ends[PATH_ENDS];      // paths, by PATH_END_…
+};
+LANTERN_ASSERT_SIZE(FReflectionStatistics, 36);
+
 // Constants of Reflections/Paths.rgen and .comp.
 struct FReflectionPathConstants
 {
@@ -60,8 +77,9 @@ struct FReflectionPathConstants
 	FAddress List;            // FThreadList
 	FAddress Hits;            // FReflectionHit[], by place in the list
 	FAddress RadianceCells;   // as above
+	FAddress Statistics;      // FReflectionStatistics; COUNTS_ENDS only
 };
-LANTERN_ASSERT_SIZE(FReflectionPathConstants, 88);
+LANTERN_ASSERT_SIZE(FReflectionPathConstants, 96);
 
 // Constants of Reflections/Surface.comp.
 struct FReflectionSurfaceConstants

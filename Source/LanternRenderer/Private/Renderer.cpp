@@ -9,6 +9,7 @@
 
 #include "Feedback/AnyHitCounter.h"
 #include "Feedback/RadianceCellCounter.h"
+#include "Feedback/ReflectionCounter.h"
 #include "Feedback/StandInFeedback.h"
 #include "FrameChoices.h"
 #include "LanternCore/Config/ConsoleVariables.h"
@@ -57,6 +58,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       ShaderTable(InDevice),
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       CellCounter(std::make_unique<FRadianceCellCounter>(InDevice)),
+      ReflectionCounter(std::make_unique<FReflectionCounter>(InDevice)),
       Sky(std::make_unique<FSkyBake>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice)),
@@ -84,12 +86,14 @@ FRTStatus FRenderer::WaitForAll()
 	}
 	AnyHits->TakeAll();
 	CellCounter->TakeAll();
+	ReflectionCounter->TakeAll();
 	RayCounter->TakeAll();
 	return FRTStatus::Success();
 }
 
 const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
 const FRadianceCellCounts& FRenderer::GetRadianceCells() const { return CellCounter->Get(); }
+const FReflectionCounts& FRenderer::GetReflections() const { return ReflectionCounter->Get(); }
 const FRayCounts& FRenderer::GetRayCounts() const { return RayCounter->Get(); }
 
 FRTStatus FRenderer::WaitForFlight()
@@ -354,6 +358,7 @@ void FRenderer::BeginFeedback()
 {
 	AnyHits->BeginFrame(FlightIndex);
 	CellCounter->BeginFrame(FlightIndex);
+	ReflectionCounter->BeginFrame(FlightIndex);
 	StandIns->BeginFrame(FlightIndex, Context->Scene);
 	QueueDemand->BeginFrame(FlightIndex);
 	State->LightCells->BeginFrame(FlightIndex);
@@ -365,12 +370,15 @@ void FRenderer::BeginFeedback()
 void FRenderer::StartCounting()
 {
 	FRTStatus Status = AnyHits->Start();
-	if (Status) { Status = CellCounter->Start(); }
+	if (Status) { Status = CellCounter->Start(AreRadianceCellsCounted()); }
+	if (Status) { Status = ReflectionCounter->Start(AreReflectionsCounted()); }
 	if (Status && bStandIns) { Status = StandIns->Start(Context->Scene, Context->View.Position); }
 	if (!Status) { LogOnce(ERTLogLevel::Warning, std::string("rays are not counted: ") + Status.Message); }
 	AnyHits->GetCounters().AddClear(*Graph);
 	CellCounter->GetCounters().AddClear(*Graph);
 	Context->RadianceCellStatistics = CellCounter->GetCounters().GetAddress();
+	ReflectionCounter->GetCounters().AddClear(*Graph);
+	Context->ReflectionStatistics = ReflectionCounter->GetCounters().GetAddress();
 	StandIns->GetCounters().AddClear(*Graph);
 }
 
@@ -378,6 +386,7 @@ void FRenderer::EndFeedback(bool bSubmitted)
 {
 	AnyHits->GetCounters().EndFrame(bSubmitted);
 	CellCounter->GetCounters().EndFrame(bSubmitted);
+	ReflectionCounter->GetCounters().EndFrame(bSubmitted);
 	StandIns->GetCounters().EndFrame(bSubmitted);
 	QueueDemand->EndFrame(bSubmitted);
 	State->LightCells->EndFrame(bSubmitted);

@@ -4,6 +4,7 @@
 
 #include "Feedback/AnyHitCounter.h"
 #include "Feedback/RadianceCellCounter.h"
+#include "Feedback/ReflectionCounter.h"
 #include "Feedback/StandInFeedback.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternRenderer/Renderer.h"
@@ -51,6 +52,7 @@ FRTStatus FRenderer::Execute(const std::function<FRTStatus()>& Run)
 	AddRayPasses(); // also where nobody asked: what was begun is recorded, so that the next frame finds it done
 	AnyHits->GetCounters().AddRead(*Graph);
 	CellCounter->GetCounters().AddRead(*Graph);
+	ReflectionCounter->GetCounters().AddRead(*Graph);
 	StandIns->GetCounters().AddRead(*Graph);
 	FRTStatus Status = FrameStatus;
 	if (Status)

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "Denoise/Denoise.h"
+#include "Feedback/ReflectionCounter.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
 #include "LocalLights/Emitters.h"
@@ -158,6 +159,7 @@ void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths&
 			C.Hits = GetAddress(Pass, Paths.Hits);
 			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
 			C.FirstVoter = Paths.FirstVoter;
+			C.Statistics = Frame->ReflectionStatistics;
 			Pass.CountRays(uint64_t(Frame->Width) * Frame->Height * Samples * GetMaxPathRays(Frame->Facts, Bounces));
 			TraceThreadList(Pass, *Frame, Paths.Dispatch, Paths.Threads, C, Frame->Width, Frame->Height);
 		};
@@ -238,6 +240,7 @@ FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const F
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
 	if (ChooseRadianceCellPath(Query) != ERayPath::None) { AddRadianceCellDefines(Rays.Defines); }
 	if (Rays.Path == ERayPath::Pipeline) { AddReorderDefine(Query.Capabilities, Rays.Defines); }
+	if (AreReflectionsCounted()) { Rays.Defines.emplace_back("COUNTS_ENDS", "1"); }
 	Rays.bShadesHits = true;
 	Rays.Shaders = "Reflections/Paths";
 	ListLightCellShaders(Query.Facts, Rays.Compute);

@@ -41,4 +41,20 @@ struct FRadianceCellCounts
 	uint32_t Frames = 0;  ///< number of frames that have arrived
 };
 
+/// Counts of reflections in the newest frame that has arrived, with r.RT.Reflections.Count. A frame's counts arrive two frames later, or
+/// with WaitForAll.
+struct FReflectionCounts
+{
+	uint32_t Mirrors = 0;  ///< pixels that traced: roughness below 0.032
+	uint32_t Sharp = 0;    ///< below r.RT.Reflections.LitRoughness
+	uint32_t Wide = 0;     ///< rougher ones
+	uint32_t Lit = 0;      ///< paths whose first hit was lit by rays to lights
+	uint32_t Sky = 0;      ///< paths that ended in the sky
+	uint32_t Cells = 0;    ///< that ended in a radiance cell
+	uint32_t StandIns = 0; ///< that ended at a mirror, whose cell stood in for what it shows
+	uint32_t Dark = 0;     ///< that ended where nothing was known, or all was absorbed
+	uint32_t None = 0;     ///< that had no direction to go
+	uint32_t Frames = 0;   ///< number of frames that have arrived
+};
+
 } // namespace Lantern

@@ -112,6 +112,7 @@ class FMovedCasters;
 class FRadianceCellCounter;
 class FRadianceEvents;
 class FRayQueueCounter;
+class FReflectionCounter;
 class FRayQueueDemand;
 class FRefitQuality;
 class FSkyBake;
@@ -273,6 +274,7 @@ struct FFrameContext
 	FMovedCasters* MovedCasters = nullptr;     ///< what may have changed the sun's shadows since the view's last frame
 	FRadianceEvents* RadianceEvents = nullptr; ///< what has changed indirect light
 	uint64_t RadianceCellStatistics = 0;       ///< address of FRadianceCellStatistics; 0: nothing is counted
+	uint64_t ReflectionStatistics = 0;         ///< address of FReflectionStatistics; 0: nothing is counted
 	FRayQueueCounter* RayCounter = nullptr;
 	/// What the host hands over beside its G-buffer, before it adds passes. Frames without FFrameFeatures::bHostShadow do not read it.
 	FHostShadow HostShadow;
@@ -379,6 +381,7 @@ public:
 	const FAnyHitCounts& GetAnyHits() const;
 	const FRayCounts& GetRayCounts() const;
 	const FRadianceCellCounts& GetRadianceCells() const;
+	const FReflectionCounts& GetReflections() const;
 	/// Makes executed frames leave a text for DumpGraph. Off by default, because it takes longer than the graph itself.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
 	const std::string& DumpGraph() const { return LastDump; } ///< the last executed frame, as text
@@ -420,6 +423,7 @@ private:
 	FShaderTable ShaderTable;
 	std::unique_ptr<FAnyHitCounter> AnyHits;
 	std::unique_ptr<FRadianceCellCounter> CellCounter;
+	std::unique_ptr<FReflectionCounter> ReflectionCounter;
 	std::unique_ptr<FSkyBake> Sky;
 	FMaterialPrograms Programs;
 	FRTPSOCompiler RayCompiler;
