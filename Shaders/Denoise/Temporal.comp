@@ -105,7 +105,8 @@ void main()
 #if CHANNELS == 1
 	MeasureOutliers();
 #else
-	if (!IsGroupDark(bLoadedAny))
+	if (IsGroupDark(bLoadedAny)) { ClearOutliers(); }
+	else
 	{
 		MeasureOutliers();
 		SumWindowRows();

@@ -57,7 +57,7 @@ void main()
 	}
 	barrier();
 #ifdef LOCAL_EMISSIVE
-	CountEmitters(Scene, View, Place);
+	if (!ChoosesOfLights(Tile)) { CountEmitters(Scene, View, Place); }
 #endif
 	ChooseOfMany(Scene, View, Point, bSurface, Pixel, Place);
 	barrier();

@@ -43,9 +43,10 @@ struct FEmitterSearch
 {
 	bool bLooks;     // in this one
 	float Scale;     // what its choice stands for
-	uint Candidates; // fewer where their noise is too dim to be seen
+	uint Candidates; // fewer where light is dim: their noise is as well
 };
 
+const float CandidatesOfDim = 4.0; // of a pixel as bright as DimEmitter()
 const float LookTogether = 8.0; // pixels of a tile: it is the tile that costs
 const float ChanceSteps = 65536.0;
 
@@ -68,16 +69,16 @@ FEmitterSearch MakeEmitterSearch(FViewConstants View, uvec2 Pixel, bool bSurface
 	}
 	barrier();
 	float TileChance = min(max(float(ChanceSum) / LookTogether, float(ChanceMost)) / ChanceSteps, 1.0);
-	uint Index = TileIndex(View, GROUP_TILE), Frame = View.FrameIndex;
-	bool bTile = UniformOf(HashPcg(Index + View.Seed) + Frame * 0x9e3779b9u) < TileChance; // by the golden ratio from frame to frame
-	float U = UniformOf(HashPcg(Index * TILE_PIXELS + Place + HashPcg(Frame ^ 0x51ed270bu)));
+	uint Index = TileIndex(View, GROUP_TILE), Frame = View.FrameIndex, Seed = HashPcg(View.Seed);
+	bool bTile = UniformOf(HashPcg(Index + Seed) + Frame * 0x9e3779b9u) < TileChance; // by the golden ratio from frame to frame
+	float U = UniformOf(HashPcg(Index * TILE_PIXELS + Place + HashPcg((Frame ^ 0x51ed270bu) + Seed)));
 	FEmitterSearch Search;
 	Search.bLooks = bTile && U * TileChance < Chance;
 	Search.Scale = 1.0 / max(Chance, 1.0e-6);
 #ifdef NO_CHOICE_WEIGHT // r.RT.Debug.Lights.Weight
 	Search.Scale = 1.0;
 #endif
-	Search.Candidates = clamp(uint(Brightness), 1u, MostCandidates());
+	Search.Candidates = clamp(uint(Brightness * CandidatesOfDim), 1u, MostCandidates());
 	return Search;
 }
 

@@ -166,7 +166,7 @@ void main()
 	barrier();
 	float Depth = bInside ? LoadDepth(Push.Depth, ivec2(Pixel)) : 0.0;
 	FLobes Lobes = FLobes(vec3(0.0), vec3(0.0));
-	bool bCertain = Tile.bChooses != TILE_CHOOSES_NOBODY, bOfOthers = false;
+	bool bCertain = Depth <= 0.0 || Tile.bChooses != TILE_CHOOSES_NOBODY, bOfOthers = false;
 	if (Depth > 0.0 && (Tile.Count != 0u || HaveChosen(Tile))) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth, bCertain); }
 #ifdef SPARSE
 	bOfOthers = !bCertain && !HasTurn(View.FrameIndex, Place);

@@ -26,7 +26,7 @@ struct FTileLights
 	uint Count;                 // 0 to TILE_LIGHTS, or TILE_LIGHTS_MANY
 	uint Lights[TILE_LIGHTS];   // index in the table of lights, and TILE_LIGHT_UNSHADOWED. Rising; with LIGHT_MASK, a light keeps its slot
 	uint Reached[2 * TILE_LIGHTS]; // two words for each light: pixels that it may light, in Z order
-	uint bChooses; // each pixel has an FLightChoice: with MANY of all lights, and CHOSEN_RAYS of them; else one of emissive triangles alone
+	uint bChooses; // not 0: each pixel has an FLightChoice, unless TILE_CHOOSES_NOBODY (HaveChosen): with MANY of all lights, and CHOSEN_RAYS of them; else one of emissive triangles alone
 	uint Asking[2 * TILE_CHOSEN_MOST]; // two words for each choice: pixels that ask for a ray to it, in Z order
 	uint Chose[2];  // with r.RT.Lights.Rate, of tiles of many lights: pixels that chose one in this frame
 };

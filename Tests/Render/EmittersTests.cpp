@@ -178,6 +178,22 @@ TEST_F(FEmittersTest, DimLightIsAskedForInTurn)
 	EXPECT_LT(Measure("1", FaultyRays).Mean, 0.8 * All.Mean);
 }
 
+// The filter keeps what comes in few frames, though most of them are dark.
+TEST_F(FEmittersTest, DimLightIsNotFilteredAway)
+{
+	ASSERT_TRUE(LoadPanels());
+	SetVariable("r.RT.Lights.Denoise", "1");
+	const FView View = LookAtStage(48, 27);
+	const auto Measure = [&](const char* Dim) {
+		SetVariable("r.RT.Lights.DimEmitters", Dim);
+		GetEngine().SetFrameIndex(0);
+		return MeanGreen(RenderSignal(ESignal::LocalDiffuse, View, 480, 120)); // behind 120 that are not looked at
+	};
+	const double All = Measure("0"), Some = Measure("1");
+	PrintFigure(fmt::format("dim light behind the filter: mean {:.4f} times", Some / All));
+	EXPECT_NEAR(Some / All, 1.0, 0.05);
+}
+
 // What the alpha test cuts away does not shine, and both sides do.
 TEST_F(FEmittersTest, HalfCutPanelAsTheReference)
 {

@@ -23,7 +23,14 @@ struct FNeighborhood
 
 #ifdef QUARTER
 void MeasureOutliers() {} // no pixel has a neighbour with a value
+void ClearOutliers() {}
 #else
+// Where all signals are 0.
+void ClearOutliers()
+{
+	for (int I = int(gl_LocalInvocationIndex); I < InnerSize * InnerSize; I += GroupSize * GroupSize) { OutlierVariance[I] = 0.0; }
+}
+
 // Whether pixel I of the tile and those one Step before and behind it lie on one plane.
 bool IsPlanar(int I, int Step)
 {
@@ -116,15 +123,5 @@ FNeighborhood MeasureNeighborhood()
 #endif
 	return FNeighborhood(Sum / max(Count, 1.0), OutlierCount > 0.0 ? OutlierSum / OutlierCount : -1.0, max(Count, 1.0));
 }
-
-#if CHANNELS != 1
-// The same where all signals are 0.
-FNeighborhood MeasureDarkNeighborhood()
-{
-	float InverseDepth = TileInverseDepth[GetTileIndex(ivec2(0))], Count = 0.0;
-	for (int I = 0; I < 25; ++I) { Count += IsAtOtherDepth(GetTileIndex(ivec2(I % 5, I / 5) - NeighborhoodRadius), InverseDepth) ? 0.0 : 1.0; }
-	return FNeighborhood(0.0, 0.0, max(Count, 1.0));
-}
-#endif
 
 #endif

@@ -100,7 +100,7 @@ FFrameEstimate EstimateFrame()
 FFrameEstimate EstimateDarkFrame()
 {
 	const FWindow Dark = FWindow(FSignal(0.0), FSignal(0.0), 0.0);
-	return FFrameEstimate(FSignal(0.0), HasValue(GetTileIndex(ivec2(0))), Dark, MeasureDarkNeighborhood(), 0.0, 1.0, MaxHalf);
+	return FFrameEstimate(FSignal(0.0), HasValue(GetTileIndex(ivec2(0))), Dark, MeasureNeighborhood(), 0.0, 1.0, MaxHalf);
 }
 #endif
 #endif

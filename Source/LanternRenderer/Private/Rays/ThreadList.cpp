@@ -4,19 +4,6 @@
 namespace Lantern
 {
 
-void EmptyThreadList(FPassContext& Pass, FGraphBuffer Buffer, uint64_t Offset)
-{
-	constexpr uint64_t Word = sizeof(uint32_t), Groups = offsetof(FThreadList, Groups), Launch = offsetof(FThreadList, Launch);
-	const auto Fill = [&](uint64_t At, uint64_t Size, uint32_t Value) {
-		Pass.Commands().FillBuffer(Pass.GetBuffer(Buffer), Offset + At, Size, Value);
-	};
-	Fill(Groups, Word, RAY_QUEUE_ROW_GROUPS);
-	Fill(Groups + Word, Word, 0);
-	Fill(Groups + 2 * Word, Word, 1);
-	Fill(Launch, Word, 0);
-	Fill(Launch + Word, 2 * Word, 1);
-}
-
 FGraphBuffer AddThreadList(FFrameContext& Context, uint64_t Most, const char* Name)
 {
 	const uint64_t Bytes = sizeof(FThreadList) + Most * sizeof(uint32_t);
@@ -24,7 +11,17 @@ FGraphBuffer AddThreadList(FFrameContext& Context, uint64_t Most, const char* Na
 	Context.Graph.AddPass(Name, [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(List, ERTAccess::CopyWrite);
 		Context.Tokens.LeaveAlone(Builder);
-		return [=](FPassContext& Pass) { EmptyThreadList(Pass, List, 0); };
+		return [=](FPassContext& Pass) {
+			constexpr uint64_t Word = sizeof(uint32_t), Groups = offsetof(FThreadList, Groups), Launch = offsetof(FThreadList, Launch);
+			const auto Fill = [&](uint64_t Offset, uint64_t Size, uint32_t Value) {
+				Pass.Commands().FillBuffer(Pass.GetBuffer(List), Offset, Size, Value);
+			};
+			Fill(Groups, Word, RAY_QUEUE_ROW_GROUPS);
+			Fill(Groups + Word, Word, 0);
+			Fill(Groups + 2 * Word, Word, 1);
+			Fill(Launch, Word, 0);
+			Fill(Launch + Word, 2 * Word, 1);
+		};
 	});
 	return List;
 }

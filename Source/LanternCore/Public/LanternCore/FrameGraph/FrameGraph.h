@@ -1,8 +1,9 @@
 // The frame graph. A frame is a list of passes. Each pass declares what it reads and writes, and records its commands later.
 // Barriers, lifetimes of transient resources and culling follow from the declarations. A pass is culled if nobody reads its
 // results. A transient resource reuses an earlier one of equal description, of this frame or the previous one, whose lifetime
-// has ended. Memory is not aliased between different descriptions. Passes run in the order of AddPass. A pass records the
-// barriers between its own commands itself.
+// has ended. Memory is not aliased between different descriptions. Passes run in the order of AddPass, but for groups
+// (FPassBuilder::RunBeside). There what is declared decides, and functions must not rely on another order. A pass records
+// the barriers between its own commands itself.
 //
 //   FGraphTexture Mask = Graph.CreateTexture({.Width = W, .Height = H, .Format = …}, "SunShadowMask");
 //   Graph.AddPass("SunShadow", [&](FPassBuilder& B) {
