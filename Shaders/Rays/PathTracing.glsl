@@ -95,8 +95,10 @@ FMaterialHit TraceMaterial(FSceneConstants Scene, vec3 Origin, vec3 Direction)
 uint PathEnd = PATH_END_NONE;
 bool bPathLit = false;
 #define NOTE_END(End) PathEnd = End
+#define NOTE_LIT(Bounce) bPathLit = bPathLit || Bounce == 1u
 #else
 #define NOTE_END(End)
+#define NOTE_LIT(Bounce)
 #endif
 
 #ifdef NO_CAUSTICS
@@ -284,9 +286,8 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #ifdef HAS_TRANSMISSION
 		Throughput *= LeftByVolume(Passages, Hit);
 #endif
-		NOTE_END(PATH_END_SKY);
+		NOTE_END(Hit.Distance < 0.0 ? PATH_END_SKY : PATH_END_DARK);
 		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
-		NOTE_END(PATH_END_DARK);
 #ifdef ENDS_ON_SCREEN
 		if (Hit.Transmission <= 0.0 && EndOnScreen(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Throughput)) { return Radiance; }
 #endif
@@ -334,9 +335,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #else
 		const bool bCharacter = false;
 #endif
-#ifdef COUNTS_ENDS
-		bPathLit = bPathLit || Bounce == 1u;
-#endif
+		NOTE_LIT(Bounce);
 		uint Shows = bShown ? SHOWS_MIRRORED : SHOWS_NOTHING;
 		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, bCharacter, Hit.Channels, Shows, Random);
 
