@@ -19,7 +19,7 @@ float EmissionRoughness; // the thread sets it before
 layout(push_constant, scalar) uniform FPush { FReflectionPathConstants Push; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FReflectionHitRef { FReflectionHit Data[]; };
 
-#ifdef COUNTS_ENDS // r.RT.Reflections.Count
+#ifdef COUNTS_ENDS // r.RT.Rays.CountEnds
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FReflectionStatisticsRef { FReflectionStatistics Data; };
 
 void CountEnd()

@@ -52,7 +52,7 @@ LANTERN_ASSERT_SIZE(FReflectionListConstants, 80);
 #define PATH_END_DARK 4u     // where nothing was known, or all was absorbed
 #define PATH_ENDS 5u
 
-// Counts of a frame, with r.RT.Reflections.Count.
+// Counts of a frame, with r.RT.Rays.CountEnds.
 struct FReflectionStatistics
 {
 	uint Mirrors, Sharp, Wide; // pixels that traced, by roughness: IsMirror, below LitRoughness, others

@@ -181,16 +181,16 @@ TEST_F(FReflectionPathsTest, FacingMirrorsAreNotBlack)
 		GetEngine().SetFrameIndex(0);
 		return MeanGreen(RenderSignal(ESignal::Reflections, View, Frames)) / Truth;
 	};
-	SetVariable("r.RT.Reflections.Count", "1");
+	SetVariable("r.RT.Rays.CountEnds", "1");
 	const double Right = Measure();
 	EXPECT_OK(GetEngine().GetRenderer().WaitForAll());
-	const FReflectionCounts Counts = GetEngine().GetRenderer().GetReflections();
+	const FReflectionCounts Counts = GetEngine().GetRenderer().GetReflectionCounts();
 	EXPECT_GT(Counts.Mirrors, 4000u);
 	EXPECT_EQ(Counts.Sharp + Counts.Wide, 0u) << "the floor has no reflections";
 	EXPECT_EQ(Counts.Sky + Counts.Cells + Counts.StandIns + Counts.Dark + Counts.None, Counts.Mirrors) << "each path has one end";
 	EXPECT_GT(Counts.StandIns, Counts.Mirrors / 10);
 	EXPECT_LT(Counts.Dark, Counts.Mirrors / 20);
-	SetVariable("r.RT.Reflections.Count", "0");
+	SetVariable("r.RT.Rays.CountEnds", "0");
 	SetVariable("r.RT.Debug.GI.LastMirror", "0");
 	const double Fault = Measure();
 	PrintFigure(fmt::format("facing mirrors over the reference: {:.3f}, and {:.3f} if paths end black", Right, Fault));
@@ -208,13 +208,13 @@ TEST_F(FReflectionPathsTest, AnyPictureSizeIsComplete)
 	ASSERT_TRUE(Load(std::move(Room.Scene)));
 	SetSun(0.0, 0.0f);
 	SetSky({0.5f, 0.5f, 0.5f});
-	SetVariable("r.RT.Reflections.Count", "1");
+	SetVariable("r.RT.Rays.CountEnds", "1");
 	for (const auto& [Width, Height] : {std::pair{1u, 1u}, {131u, 73u}, {17u, 1u}, {3u, 40u}})
 	{
 		const FImage Picture = RenderSignal(ESignal::Reflections, LookAt({0, 2, 0}, {0, 0, -2}, 0.6f, Width, Height), 2);
 		ASSERT_EQ(Picture.Width, Width);
 		EXPECT_OK(GetEngine().GetRenderer().WaitForAll());
-		const FReflectionCounts Counts = GetEngine().GetRenderer().GetReflections();
+		const FReflectionCounts Counts = GetEngine().GetRenderer().GetReflectionCounts();
 		EXPECT_EQ(Counts.Mirrors, Width * Height);
 		EXPECT_EQ(Counts.Sky, Width * Height);
 		for (size_t I = 0; I < Picture.Pixels.size(); ++I) { ASSERT_NEAR(Picture.Pixels[I], 0.5f, 0.01f) << Width << " x " << Height; }

@@ -127,9 +127,9 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 		Json["radiance_cells"] = {{"live", Cells.Live}, {"young", Cells.Young}, {"updated", Cells.Updated}, {"full", Cells.Full},
 		    {"found", Cells.Found}, {"coarse", Cells.Coarse}, {"missed", Cells.Missed}};
 	}
-	if (const FReflectionCounts& Counts = Renderer.GetReflections(); Counts.Frames > 0)
+	if (const FReflectionCounts& Counts = Renderer.GetReflectionCounts(); Counts.Frames > 0)
 	{
-		Json["reflections"] = {{"mirrors", Counts.Mirrors}, {"sharp", Counts.Sharp}, {"wide", Counts.Wide}, {"hit_lit", Counts.Lit},
+		Json["path_ends"] = {{"mirrors", Counts.Mirrors}, {"sharp", Counts.Sharp}, {"wide", Counts.Wide}, {"hit_lit", Counts.Lit},
 		    {"sky", Counts.Sky}, {"cache", Counts.Cells}, {"stand_in", Counts.StandIns}, {"dark", Counts.Dark}, {"none", Counts.None}};
 	}
 	Json["load_seconds"] = Session.GetLoadSeconds();

@@ -93,7 +93,7 @@ FRTStatus FRenderer::WaitForAll()
 
 const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
 const FRadianceCellCounts& FRenderer::GetRadianceCells() const { return CellCounter->Get(); }
-const FReflectionCounts& FRenderer::GetReflections() const { return ReflectionCounter->Get(); }
+const FReflectionCounts& FRenderer::GetReflectionCounts() const { return ReflectionCounter->Get(); }
 const FRayCounts& FRenderer::GetRayCounts() const { return RayCounter->Get(); }
 
 FRTStatus FRenderer::WaitForFlight()
@@ -371,7 +371,7 @@ void FRenderer::StartCounting()
 {
 	FRTStatus Status = AnyHits->Start();
 	if (Status) { Status = CellCounter->Start(AreRadianceCellsCounted()); }
-	if (Status) { Status = ReflectionCounter->Start(AreReflectionsCounted()); }
+	if (Status) { Status = ReflectionCounter->Start(ArePathEndsCounted()); }
 	if (Status && bStandIns) { Status = StandIns->Start(Context->Scene, Context->View.Position); }
 	if (!Status) { LogOnce(ERTLogLevel::Warning, std::string("rays are not counted: ") + Status.Message); }
 	AnyHits->GetCounters().AddClear(*Graph);

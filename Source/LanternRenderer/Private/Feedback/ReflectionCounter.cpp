@@ -8,7 +8,7 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarCount("r.RT.Reflections.Count", false,
+TRTConsoleVariable<bool> CVarCount("r.RT.Rays.CountEnds", false,
     "Counts the pixels whose reflections are traced, and how their paths end. These take longer for it: for measurements only.");
 
 FReflectionCounts MakeCounts(const FReflectionStatistics& Of)
@@ -18,7 +18,7 @@ FReflectionCounts MakeCounts(const FReflectionStatistics& Of)
 }
 } // namespace
 
-bool AreReflectionsCounted() { return CVarCount.GetOnRenderThread(); }
+bool ArePathEndsCounted() { return CVarCount.GetOnRenderThread(); }
 
 FReflectionCounter::FReflectionCounter(IRTDevice& InDevice) : TGpuStatistics(InDevice, "ReflectionStatistics", MakeCounts) {}
 

@@ -1,4 +1,4 @@
-// Counts what becomes of the paths of reflections: r.RT.Reflections.Count. If it is off, nothing is allocated.
+// Counts what becomes of the paths of reflections: r.RT.Rays.CountEnds. If it is off, nothing is allocated.
 #pragma once
 
 #include "Feedback/GpuStatistics.h"
@@ -9,7 +9,7 @@ namespace Lantern
 {
 
 /// Whether shaders count.
-bool AreReflectionsCounted();
+bool ArePathEndsCounted();
 
 class FReflectionCounter : public TGpuStatistics<FReflectionStatistics, FReflectionCounts>
 {

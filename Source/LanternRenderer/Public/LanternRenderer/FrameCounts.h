@@ -41,7 +41,7 @@ struct FRadianceCellCounts
 	uint32_t Frames = 0;  ///< number of frames that have arrived
 };
 
-/// Counts of reflections in the newest frame that has arrived, with r.RT.Reflections.Count. A frame's counts arrive two frames later, or
+/// Counts of reflections in the newest frame that has arrived, with r.RT.Rays.CountEnds. A frame's counts arrive two frames later, or
 /// with WaitForAll.
 struct FReflectionCounts
 {

@@ -381,7 +381,7 @@ public:
 	const FAnyHitCounts& GetAnyHits() const;
 	const FRayCounts& GetRayCounts() const;
 	const FRadianceCellCounts& GetRadianceCells() const;
-	const FReflectionCounts& GetReflections() const;
+	const FReflectionCounts& GetReflectionCounts() const;
 	/// Makes executed frames leave a text for DumpGraph. Off by default, because it takes longer than the graph itself.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
 	const std::string& DumpGraph() const { return LastDump; } ///< the last executed frame, as text
