@@ -128,7 +128,7 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 }
 
 // How much chance is in a pixel's light, for filters (FDenoiseInputs::Signal).
-const float NoChance = 0.0, SomeChance = 1.0, OfOthers = 2.0, OfMany = 3.0;
+const float NoChance = 0.0, SomeChance = 1.0, OfOthers = 2.0, OfMany = 3.0, OfNobody = 4.0;
 
 void WriteLobes(uvec2 Pixel, FLobes Lobes, float Chance)
 {
@@ -174,5 +174,8 @@ void main()
 	if (ChoosesOfLights(Tile)) { Lobes = FillFromTile(View, Tile, Place, Lobes, bOfOthers); }
 #endif
 #endif
-	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? NoChance : bOfOthers ? OfOthers : Tile.bChooses != 0u ? OfMany : SomeChance); }
+	bool bAsked = (Tile.Asking[Place >> 5u] & (1u << (Place & 31u))) != 0u;
+	bool bSeldom = Tile.bChooses != 0u && !ChoosesOfLights(Tile) && !bAsked; // of an emitter; dim ones get rays in some frames alone
+	float Chance = bOfOthers && Tile.Count != 0u ? OfOthers : bSeldom ? OfNobody : Tile.bChooses != 0u ? OfMany : SomeChance;
+	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? NoChance : Chance); }
 }

@@ -1,7 +1,7 @@
 // Step "clamp" of the temporal filter, for colours: keeps the history's mean within the range that the window of this frame allows.
 //   Takes: the window's mean and standard deviation; the history.
-//   Gives: the history with its mean clamped. Where pixels ask for rays in some frames alone, a frame without any says nothing of the range:
-//   there the history's own noise counts as well.
+//   Gives: the history with its mean clamped. A pixel that asked for no ray to an emitter says nothing of the range, nor does a window
+//   of such: there the history's own noise counts as well.
 //   Why: the history follows light that changes (Salvi 2016, "An Excursion in Temporal Supersampling"). Visibility does without:
 //   the step "change" finds what changes there, and a clamp made ambient occlusion worse (Docs/Performance.md).
 #ifndef LANTERN_TEMPORAL_CLAMP_GLSL
@@ -13,9 +13,9 @@
 void ClampHistory(FWindow Window, inout FAccumulated Past)
 {
 	if (Push.ClampSigma <= 0.0) { return; }
-	const float LeastSeldom = 2.0; // of those that chose, or take from others (LocalLights/Shade.comp)
+	const float OfNobody = 4.0; // see LocalLights/Shade.comp
 	FSignal Sigma = Window.Sigma;
-	if (texelFetch(Textures[Push.Signal], ivec2(gl_GlobalInvocationID.xy), 0).w >= LeastSeldom) { Sigma = max(Sigma, FSignal(Past.NoiseSigma)); }
+	if (texelFetch(Textures[Push.Signal], ivec2(gl_GlobalInvocationID.xy), 0).w == OfNobody) { Sigma = max(Sigma, FSignal(Past.NoiseSigma)); }
 	FSignal Range = Sigma * Push.ClampSigma;
 	Past.Mean = clamp(Past.Mean, Window.Mean - Range, Window.Mean + Range);
 }
