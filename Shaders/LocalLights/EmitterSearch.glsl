@@ -26,6 +26,7 @@ void CountEmitters(FSceneConstants Scene, FViewConstants View, uint Place)
 	if (Place == 0u) { EmitterBound = RunSums[TILE_PIXELS - 1u] / EmissionScale; }
 	barrier();
 }
+
 // Returns about the most that emitters bring to what the picture shows of a pixel, in units of DimEmitter(). Glossy surfaces may show more of
 // a light than the diffuse lobe does.
 float BrightnessOfEmitters(FViewConstants View, uvec2 Pixel)
