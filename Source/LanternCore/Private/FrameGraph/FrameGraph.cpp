@@ -250,13 +250,11 @@ FRTStatus FFrameGraph::Compile()
 		Impl->AssignQueues();
 		Impl->GatherGroups();
 		Impl->FindLifetimes();
-		Impl->ExtendLifetimesOverGroups();
 		Impl->CompileStatus = Impl->Allocate();
 	}
 	if (Impl->CompileStatus)
 	{
 		Impl->PlaceBarriers();
-		Impl->HoistBarriersOfGroups();
 		Impl->OrderTokens();
 	}
 	return Impl->CompileStatus;

@@ -164,7 +164,6 @@ void FFrameGraph::FImpl::FindLifetimes()
 
 FRTStatus FFrameGraph::FImpl::Allocate()
 {
-	std::vector<std::vector<FPooledResource*>> Ending(Passes.size()); // by the last pass: of a group, it may be one that does not use it
 	for (uint32_t Index = 0; Index < Passes.size(); ++Index)
 	{
 		if (Passes[Index].bCulled) { continue; }
@@ -178,11 +177,30 @@ FRTStatus FFrameGraph::FImpl::Allocate()
 				return FRTStatus::Error(Status.Code, "Frame graph: cannot create %s for pass '%s': %s", Resource.Describe().c_str(),
 				    Passes[Index].Name.c_str(), Status.Message);
 			}
-			Ending[Resource.LastPass].push_back(Resource.Pooled.get());
 		}
-		for (FPooledResource* const Pooled : Ending[Index]) { Pooled->bBusy = false; }
+		// No member of a group may have the memory of another.
+		const FGroupRun* const Run = FindRun(Index);
+		if (!Run) { ReleaseBehind(Index, Index); }
+		else if (Run->Last == Index) { ReleaseBehind(Run->First, Run->Last); }
 	}
 	return FRTStatus::Success();
+}
+
+void FFrameGraph::FImpl::ReleaseBehind(uint32_t First, uint32_t Last)
+{
+	for (uint32_t Index = First; Index <= Last; ++Index)
+	{
+		for (const FPassUse& Use : Passes[Index].Uses)
+		{
+			const FGraphResource& Resource = Resources[Use.Resource];
+			if (!Resource.bImported && Resource.LastPass <= Last) { Resource.Pooled->bBusy = false; }
+		}
+	}
+}
+
+bool SharesLayout(const FGraphResource& Resource, ERTAccess A, ERTAccess B)
+{
+	return !Resource.bTexture || GetLayoutClass(A) == GetLayoutClass(B);
 }
 
 void FFrameGraph::FImpl::PlaceBarriers()
@@ -196,7 +214,7 @@ void FFrameGraph::FImpl::PlaceBarriers()
 		{
 			if (Passes[Index].bCulled) { continue; }
 			if (Uses[Use.Resource].empty()) { Order.push_back(Use.Resource); }
-			Uses[Use.Resource].push_back({Index, Use.GetAccess(), Use.bApart});
+			Uses[Use.Resource].push_back({Index, Use});
 		}
 	}
 	for (const uint32_t Resource : Order) { PlaceBarriersOf(Resource, Uses[Resource]); }
@@ -204,6 +222,7 @@ void FFrameGraph::FImpl::PlaceBarriers()
 	{
 		if (Uses[Index].empty() && Resources[Index].bImported) { PlaceBarriersOf(Index, {}); }
 	}
+	HoistBarriersOfGroups();
 	for (FGraphPass& Pass : Passes)
 	{
 		std::sort(Pass.Barriers.begin(), Pass.Barriers.end(),
@@ -211,16 +230,9 @@ void FFrameGraph::FImpl::PlaceBarriers()
 	}
 }
 
-bool FFrameGraph::FImpl::AreApart(const FStateUse& A, const FStateUse& B) const
-{
-	const auto IsRun = [&](const FGroupRun& Run) { return Run.Contains(A.Pass) && Run.Contains(B.Pass); };
-	return A.bApart && B.bApart && A.Access == B.Access && std::any_of(GroupRuns.begin(), GroupRuns.end(), IsRun);
-}
-
 void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<FStateUse>& Uses)
 {
 	const FGraphResource& Resource = Resources[Index];
-	const auto SharesLayout = [&](ERTAccess A, ERTAccess B) { return !Resource.bTexture || GetLayoutClass(A) == GetLayoutClass(B); };
 
 	// The old content of a pooled resource is discarded, but the work of its previous user must have finished.
 	ERTAccess State = Resource.Current;
@@ -234,14 +246,16 @@ void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<FStat
 	for (size_t Begin = 0; Begin < Uses.size();)
 	{
 		// Consecutive reads become one state, which one barrier enters.
-		ERTAccess Access = Uses[Begin].Access;
+		ERTAccess Access = Uses[Begin].GetAccess();
 		size_t End = Begin + 1;
-		while (!IsWrite(Access) && End < Uses.size() && !IsWrite(Uses[End].Access) && SharesLayout(Access, Uses[End].Access))
+		while (!IsWrite(Access) && End < Uses.size() && !IsWrite(Uses[End].GetAccess()) &&
+		       SharesLayout(Resource, Access, Uses[End].GetAccess()))
 		{
-			Access |= Uses[End++].Access;
+			Access |= Uses[End++].GetAccess();
 		}
-		while (End < Uses.size() && AreApart(Uses[Begin], Uses[End])) { ++End; }
-		const bool bCovered = !IsWrite(State) && !IsWrite(Access) && Contains(State, Access) && SharesLayout(State, Access);
+		const FGroupRun* const Run = FindRun(Uses[Begin].Pass);
+		while (Run && End < Uses.size() && Run->Contains(Uses[End].Pass) && AreApart(Uses[Begin].Use, Uses[End].Use)) { ++End; }
+		const bool bCovered = !IsWrite(State) && !IsWrite(Access) && Contains(State, Access) && SharesLayout(Resource, State, Access);
 		const bool bFresh = State == ERTAccess::None && !Resource.bTexture;
 		if (!bCovered)
 		{

@@ -16,9 +16,8 @@ TRTConsoleVariable<bool> CVarGroups("r.RT.FrameGraph.Groups", true,
 /// Whether one state of a resource serves both uses, in any order. bOneGroup: their passes are of one.
 bool CanShareState(const FGraphResource& Resource, const FPassUse& A, const FPassUse& B, bool bOneGroup)
 {
-	const bool bSameLayout = !Resource.bTexture || GetLayoutClass(A.GetAccess()) == GetLayoutClass(B.GetAccess());
-	if (!IsWrite(A.GetAccess()) && !IsWrite(B.GetAccess())) { return bSameLayout; }
-	return bOneGroup && A.bApart && B.bApart && A.GetAccess() == B.GetAccess();
+	if (!IsWrite(A.GetAccess()) && !IsWrite(B.GetAccess())) { return SharesLayout(Resource, A.GetAccess(), B.GetAccess()); }
+	return bOneGroup && AreApart(A, B);
 }
 } // namespace
 
@@ -86,15 +85,10 @@ void FFrameGraph::FImpl::GatherGroups()
 	}
 }
 
-void FFrameGraph::FImpl::ExtendLifetimesOverGroups()
+const FGroupRun* FFrameGraph::FImpl::FindRun(uint32_t Pass) const
 {
-	for (FGraphResource& Resource : Resources)
-	{
-		for (const FGroupRun& Run : GroupRuns)
-		{
-			if (Run.Contains(Resource.LastPass)) { Resource.LastPass = Run.Last; }
-		}
-	}
+	const auto It = std::find_if(GroupRuns.begin(), GroupRuns.end(), [&](const FGroupRun& Run) { return Run.Contains(Pass); });
+	return It != GroupRuns.end() ? &*It : nullptr;
 }
 
 void FFrameGraph::FImpl::HoistBarriersOfGroups()
@@ -108,7 +102,6 @@ void FFrameGraph::FImpl::HoistBarriersOfGroups()
 			All.insert(All.end(), Own.begin(), Own.end());
 			Own.clear();
 		}
-		std::sort(All.begin(), All.end(), [](const FGraphBarrier& A, const FGraphBarrier& B) { return A.Resource < B.Resource; });
 	}
 }
 

@@ -127,6 +127,11 @@ struct FPassUse
 	ERTAccess GetAccess() const { return Read | Write; }
 };
 
+/// Whether one layout of a resource serves two accesses.
+bool SharesLayout(const FGraphResource& Resource, ERTAccess A, ERTAccess B);
+/// Whether passes of one group may write so in any order.
+inline bool AreApart(const FPassUse& A, const FPassUse& B) { return A.bApart && B.bApart && A.GetAccess() == B.GetAccess(); }
+
 struct FGraphBarrier
 {
 	uint32_t Resource = 0;
@@ -186,11 +191,11 @@ struct FFrameGraph::FImpl
 	struct FStateUse
 	{
 		uint32_t Pass = 0;
-		ERTAccess Access = ERTAccess::None;
-		bool bApart = false;
+		FPassUse Use;
+		ERTAccess GetAccess() const { return Use.GetAccess(); }
 	};
-	/// Whether two passes of one run need no barrier between them though they write.
-	bool AreApart(const FStateUse& A, const FStateUse& B) const;
+	/// Frees what is not used behind these passes, for those that follow.
+	void ReleaseBehind(uint32_t First, uint32_t Last);
 	void PlaceBarriersOf(uint32_t Resource, const std::vector<FStateUse>& Uses);
 
 	// FrameGraphQueues.cpp:
@@ -217,8 +222,8 @@ struct FFrameGraph::FImpl
 	/// Moves a pass behind the last of a run, and before the first what it needs. False: something of the run must be before that.
 	bool JoinGroup(FGroupRun& Run, uint32_t Joining);
 	void GatherGroups();
-	/// No member of a group may have the memory of another.
-	void ExtendLifetimesOverGroups();
+	/// Null: the pass runs by itself.
+	const FGroupRun* FindRun(uint32_t Pass) const;
 	void HoistBarriersOfGroups();
 
 	// FrameGraphRecord.cpp:
@@ -237,8 +242,6 @@ struct FFrameGraph::FImpl
 	FTimedFrame& BeginTiming(const std::vector<FSegment>& Segments, std::vector<uint32_t>& OutIndices);
 	/// Lists what is timed: passes that run, and groups, each before its first pass. OutCounts: pairs of timestamps, by queue.
 	void ListTimed(FTimedFrame& Out, std::vector<uint32_t>& OutIndices, uint32_t (&OutCounts)[PassQueueCount]) const;
-	/// Null: the pass runs by itself.
-	const FGroupRun* FindRun(uint32_t Pass) const;
 	void RecordSegment(
 	    const FSegment& Segment, FTimedFrame& Frame, const std::vector<uint32_t>& Indices, const FGetFailure& GetFailure) const;
 	void RecordPass(IRTCommandList& Commands, const FGraphPass& Pass, FPassTiming& Timing, IRTQueryPool* Queries, uint32_t Query) const;

@@ -137,12 +137,6 @@ void FFrameGraph::FImpl::RecordSegment(
 	}
 }
 
-const FGroupRun* FFrameGraph::FImpl::FindRun(uint32_t Pass) const
-{
-	const auto It = std::find_if(GroupRuns.begin(), GroupRuns.end(), [&](const FGroupRun& Run) { return Run.Contains(Pass); });
-	return It != GroupRuns.end() ? &*It : nullptr;
-}
-
 void FFrameGraph::FImpl::ListTimed(FTimedFrame& Out, std::vector<uint32_t>& OutIndices, uint32_t (&OutCounts)[PassQueueCount]) const
 {
 	OutIndices.assign(Passes.size(), 0);
