@@ -3,11 +3,10 @@
 #version 460
 #include "../Library/Planes.glsl"
 #include "../Shared/BruteForceTypes.h"
+#include "../Shared/DenoiseTypes.h"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FFillConstants Push; };
-
-const float OfOthers = 2.0; // FDenoiseInputs::Signal
 
 // What lies alone on its plane takes what there is: leaves and wires have no others.
 uint FindOthers(uint FrameIndex, ivec2 InTile)
@@ -29,7 +28,7 @@ void FillPixel(uint Image, ivec2 Pixel, uint Neighbors)
 	{
 		if ((Neighbors & (1u << I)) != 0u) { Sum += imageLoad(Images[Image], Pixel + ivec2(I % 3u, I / 3u) - 1).rgb; }
 	}
-	imageStore(Images[Image], Pixel, RoundToHalf(vec4(Sum / float(max(bitCount(Neighbors), 1)), OfOthers)));
+	imageStore(Images[Image], Pixel, RoundToHalf(vec4(Sum / float(max(bitCount(Neighbors), 1)), CHANCE_OF_OTHERS)));
 }
 
 void main()

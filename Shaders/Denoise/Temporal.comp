@@ -129,7 +129,7 @@ void main()
 	FFrameEstimate Frame;
 	if (bLit != 0u) { Frame = EstimateFrame(); }
 	else { Frame = EstimateDarkFrame(); }
-	if (IsCertain(Pixel))
+	if (IsCertain())
 	{
 		Store(Pixel, FAccumulated(Frame.Value, 0.0, 1.0, Frame.Neighborhood.Mean), Frame.Extent);
 		DrawCertain(Pixel, false);

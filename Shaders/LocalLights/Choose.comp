@@ -22,9 +22,9 @@ shared FTileLights Tile;
 // Whether the work group has a tile.
 bool FindListedTile(FViewConstants View)
 {
-	uint Index, Columns = (View.Width + TILE_SIZE - 1u) / TILE_SIZE;
+	uint Index;
 	if (!FindThread(Push.Answers, gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, Index)) { return false; }
-	ListedTile = uvec2(Index % Columns, Index / Columns);
+	ListedTile = TileOf(View, Index);
 	return true;
 }
 
@@ -49,10 +49,7 @@ void main()
 	barrier();
 	if (bSurface)
 	{
-		Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
-#ifdef HAS_LIGHT_CHANNELS
-		Point.Channels = LoadPixelChannels(Push.Channels, Pixel);
-#endif
+		Point = LoadLocalPoint(Scene, View, Push.Normals, Push.Channels, Pixel, Depth);
 		GrowBox(Point.P);
 	}
 	barrier();

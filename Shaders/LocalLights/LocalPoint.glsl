@@ -55,6 +55,16 @@ FLocalPoint LoadLocalPoint(FSceneConstants Scene, FViewConstants View, uint Norm
 	return Point;
 }
 
+// And of which channels its object is. Channels: see LoadPixelChannels.
+FLocalPoint LoadLocalPoint(FSceneConstants Scene, FViewConstants View, uint Normals, uint Channels, uvec2 Pixel, float Depth)
+{
+	FLocalPoint Point = LoadLocalPoint(Scene, View, Normals, Pixel, Depth);
+#ifdef HAS_LIGHT_CHANNELS
+	Point.Channels = LoadPixelChannels(Channels, Pixel);
+#endif
+	return Point;
+}
+
 struct FLobes
 {
 	vec3 Diffuse, Specular;

@@ -160,10 +160,7 @@ void main()
 	Start(Place);
 	if (bSurface)
 	{
-		Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
-#ifdef HAS_LIGHT_CHANNELS
-		Point.Channels = LoadPixelChannels(Push.Channels, Pixel);
-#endif
+		Point = LoadLocalPoint(Scene, View, Push.Normals, Push.Channels, Pixel, Depth);
 		GrowBox(Point.P);
 	}
 	barrier();

@@ -1,6 +1,7 @@
 // Lights pixels by local lights, from the answers of their rays.
 // LIGHT_MASK: lights in slots are in the light mask (Mask.comp), and the rest counts here.
 #version 460
+#include "../Shared/DenoiseTypes.h"
 #include "../Tiles/Tile.glsl"
 #include "Demodulate.glsl"
 #include "LocalPoint.glsl"
@@ -127,9 +128,7 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 	return Sum;
 }
 
-// How much chance is in a pixel's light, for filters (FDenoiseInputs::Signal).
-const float NoChance = 0.0, SomeChance = 1.0, OfOthers = 2.0, OfMany = 3.0, OfNobody = 4.0;
-
+// Chance: CHANCE_…, for filters.
 void WriteLobes(uvec2 Pixel, FLobes Lobes, float Chance)
 {
 	const float MaxHalf = 65504.0;
@@ -140,10 +139,7 @@ void WriteLobes(uvec2 Pixel, FLobes Lobes, float Chance)
 FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, float Depth,
                     out bool bCertain)
 {
-	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
-#ifdef HAS_LIGHT_CHANNELS
-	Point.Channels = LoadPixelChannels(Push.Channels, Pixel);
-#endif
+	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Push.Channels, Pixel, Depth);
 	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Push.ReflectedRoughness);
 	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local, bCertain);
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
@@ -176,6 +172,6 @@ void main()
 #endif
 	bool bAsked = (Tile.Asking[Place >> 5u] & (1u << (Place & 31u))) != 0u;
 	bool bSeldom = Tile.bChooses != 0u && !ChoosesOfLights(Tile) && !bAsked; // of an emitter; dim ones get rays in some frames alone
-	float Chance = bOfOthers && Tile.Count != 0u ? OfOthers : bSeldom ? OfNobody : Tile.bChooses != 0u ? OfMany : SomeChance;
-	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? NoChance : Chance); }
+	float Chance = bOfOthers && Tile.Count != 0u ? CHANCE_OF_OTHERS : bSeldom ? CHANCE_OF_NOBODY : Tile.bChooses != 0u ? CHANCE_OF_MANY : CHANCE_SOME;
+	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? CHANCE_NONE : Chance); }
 }

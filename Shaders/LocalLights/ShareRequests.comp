@@ -31,7 +31,7 @@ void main()
 			uint Bit = uint(findLSB(Pixels));
 			Pixels &= Pixels - 1u;
 			if (Turn++ % Count >= Kept) { continue; }
-			uvec2 Pixel = TilePixel(uvec2(Index % Columns, Index / Columns), 32u * (I & 1u) + Bit);
+			uvec2 Pixel = TilePixel(TileOf(View, Index), 32u * (I & 1u) + Bit);
 			uint PixelIndex = Pixel.y * View.Width + Pixel.x;
 			FRayRequestRef(Push.Requests).Data[Number++] = MakeSlotRequest(I >> 1u, Slots, PixelIndex);
 		}

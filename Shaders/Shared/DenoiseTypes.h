@@ -9,6 +9,13 @@ LANTERN_SHARED_BEGIN
 #define DENOISE_VISIBILITY_GROUP_SIZE 16 // of accumulation: pixels around a group are loaded again; colours would take too much memory
 #define DENOISE_WINDOW_RADIUS 3 // pixels; the signal's range in this frame comes from a window of 7×7
 
+// How much chance is in a colour: its fourth channel, see FDenoiseInputs::Signal.
+#define CHANCE_NONE 0.0
+#define CHANCE_SOME 1.0
+#define CHANCE_OF_OTHERS 2.0 // the mean of other pixels stands for it
+#define CHANCE_OF_MANY 3.0   // chosen of many
+#define CHANCE_OF_NOBODY 4.0 // nothing was asked of dim emitters in this frame
+
 // Constants of Denoise/Surface.comp, which packs the surface that each pixel shows (Library/History.glsl).
 struct FSurfaceConstants
 {

@@ -33,7 +33,7 @@ void main()
 	{
 		if ((Rays[Place >> 5u] & (1u << (Place & 31u))) == 0u) { continue; }
 		if (Turn++ % Count >= Kept) { continue; }
-		uvec2 Pixel = TilePixel(uvec2(Index % Columns, Index / Columns), Place);
+		uvec2 Pixel = TilePixel(TileOf(View, Index), Place);
 		FRayRequestRef(Push.Requests).Data[Number++] = MakeRayRequest(RAY_KIND_SUN, 0u, Pixel.y * View.Width + Pixel.x);
 	}
 }

@@ -14,6 +14,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileRef { F
 
 uint TileIndex(FViewConstants View, uvec2 Tile) { return Tile.y * ((View.Width + TILE_SIZE - 1u) / TILE_SIZE) + Tile.x; }
 
+// Returns the tile of an index.
+uvec2 TileOf(FViewConstants View, uint Index)
+{
+	uint Columns = (View.Width + TILE_SIZE - 1u) / TILE_SIZE;
+	return uvec2(Index % Columns, Index / Columns);
+}
+
 // Whether a tile's mask has the bit of the pixel at Place.
 bool IsMarked(uint Mask[2], uint Place) { return (Mask[Place >> 5u] & (1u << (Place & 31u))) != 0u; }
 

@@ -30,8 +30,7 @@ float GetMinAlpha()
 	return Push.MinAlpha;
 #else
 	// What was chosen of many has more noise than half a second averages.
-	bool bOfMany = texelFetch(Textures[Push.Signal], ivec2(gl_GlobalInvocationID.xy), 0).w >= 3.0;
-	return bOfMany ? 0.5 * Push.MinAlpha : Push.MinAlpha;
+	return LoadChance() >= CHANCE_OF_MANY ? 0.5 * Push.MinAlpha : Push.MinAlpha;
 #endif
 }
 

@@ -13,9 +13,8 @@
 void ClampHistory(FWindow Window, inout FAccumulated Past)
 {
 	if (Push.ClampSigma <= 0.0) { return; }
-	const float OfNobody = 4.0; // see LocalLights/Shade.comp
 	FSignal Sigma = Window.Sigma;
-	if (texelFetch(Textures[Push.Signal], ivec2(gl_GlobalInvocationID.xy), 0).w == OfNobody) { Sigma = max(Sigma, FSignal(Past.NoiseSigma)); }
+	if (LoadChance() == CHANCE_OF_NOBODY) { Sigma = max(Sigma, FSignal(Past.NoiseSigma)); }
 	FSignal Range = Sigma * Push.ClampSigma;
 	Past.Mean = clamp(Past.Mean, Window.Mean - Range, Window.Mean + Range);
 }

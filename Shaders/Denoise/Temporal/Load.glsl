@@ -71,7 +71,7 @@ bool LoadTile(ivec2 Size)
 		TileSignal[I] = SanitizeSignal(Value, bValid);
 #endif
 #if CHANNELS != 1
-		bTileFilled[I] = Texel.w == 2.0;
+		bTileFilled[I] = Texel.w == CHANCE_OF_OTHERS;
 		bAny = bAny || GetBrightness(TileSignal[I]) > 0.0;
 #endif
 	}
@@ -79,8 +79,11 @@ bool LoadTile(ivec2 Size)
 }
 
 #if CHANNELS != 1
+// Returns CHANCE_… of the pixel's value.
+float LoadChance() { return texelFetch(Textures[Push.Signal], ivec2(gl_GlobalInvocationID.xy), 0).w; }
+
 // Whether the pixel has a value without noise, which other frames could only blur.
-bool IsCertain(ivec2 Pixel) { return texelFetch(Textures[Push.Signal], Pixel, 0).w == 0.0 && TileInverseDepth[GetTileIndex(ivec2(0))] > 0.0; }
+bool IsCertain() { return LoadChance() == CHANCE_NONE && TileInverseDepth[GetTileIndex(ivec2(0))] > 0.0; }
 #endif
 
 // Whether a pixel of the tile has a value of its own.
