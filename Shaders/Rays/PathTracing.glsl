@@ -10,6 +10,7 @@
 // HAS_TRANSMISSION: light shines through some surfaces, see Transmission.glsl. Paths go on behind them, and rays to lights pass straight on.
 //   TINTED_SHADOWS: these rays take what such surfaces leave of the light, as the reference does. Else they take its luminance alone.
 //   LIKELIEST_PASSAGE: paths take the likelier side of such surfaces, and cells of one size. Neither has noise, which no filter removes.
+// STANDARD_HITS, STANDARD_HITS_UNSEEN: see MaterialRay.glsl.
 // GUIDED_PATHS, SECOND_LOBE: see PathDirections.glsl. Gather then takes a white Lambert lobe alone.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
 // defined if the scene has such.
@@ -24,19 +25,8 @@
 #include "../Library/SkyMap.glsl"
 #include "../Library/Sun.glsl"
 #include "../Materials/Standard.glsl"
-#ifdef RAY_QUERY
-#include "QueryHit.glsl"
-#else
-#include "MaterialPayload.glsl"
-#include "ShadowPayload.glsl"
-
-layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
-layout(location = 0) rayPayloadEXT FMaterialPayload MaterialPayload;
-layout(location = 1) rayPayloadEXT FShadowPayload ShadowPayload;
-#endif
-
+#include "MaterialRay.glsl"
 #ifdef HAS_TRANSMISSION
-FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance, uint Shows);
 #include "Transmission.glsl"
 #endif
 #include "PathLights.glsl"
@@ -61,35 +51,7 @@ void ChooseGatherMask(uint ToonPixels, ivec2 Pixel)
 	GatherMask = bSphere ? MASK_OUTSIDE_SPHERES : MASK_VISIBLE;
 }
 
-const float Infinity = 1.0e30;
 const float RouletteThreshold = 0.25; // throughput below which Russian roulette may end a path
-
-// Shows: what of emission is asked for; SHOWS_NOTHING: what lights.
-FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance, uint Shows)
-{
-#ifdef RAY_QUERY
-	return QueryMaterialHit(Scene, Mask, Origin, Direction, MaxDistance, Shows == SHOWS_NOTHING);
-#else
-#ifdef HAS_LIGHT_EMISSION
-	MaterialPayload.W1 = Shows == SHOWS_NOTHING ? ASKS_FOR_LIGHT : 0u;
-#endif
-#ifdef REORDER
-	// Threads that hit alike run the hit's shader together.
-	hitObjectNV Hit;
-	hitObjectTraceRayNV(Hit, Scenes[Scene.Tlas], 0u, Mask, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, Origin, 0.0, Direction, MaxDistance, 0);
-	reorderThreadNV(Hit);
-	hitObjectExecuteShaderNV(Hit, 0);
-#else
-	traceRayEXT(Scenes[Scene.Tlas], 0u, Mask, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, Origin, 0.0, Direction, MaxDistance, 0);
-#endif
-	return UnpackHit(MaterialPayload);
-#endif
-}
-
-FMaterialHit TraceMaterial(FSceneConstants Scene, vec3 Origin, vec3 Direction)
-{
-	return TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, SHOWS_ALL);
-}
 
 #ifdef COUNTS_ENDS
 uint PathEnd = PATH_END_NONE;
@@ -267,6 +229,16 @@ float ChooseLevel(inout FRandom Random)
 #endif
 }
 
+// Survivors continue with a throughput of RouletteThreshold. Roulette on the throughput itself would cause most of the noise in bright rooms
+// (closed, albedo 0.9: 10 times the samples for the same error).
+bool EndsByRoulette(inout vec3 Throughput, inout FRandom Random)
+{
+	float SurvivalProbability = min(MaxComponent(Throughput) / RouletteThreshold, 1.0);
+	if (NextRandom4(Random).x >= SurvivalProbability) { return true; }
+	Throughput /= SurvivalProbability;
+	return false;
+}
+
 // Returns the radiance that arrives along a ray traced from Origin to Hit. Pdf and NdotL belong to its direction at the vertex
 // that it left; they weigh it against the next-event estimation there. Bounce: how often the path was scattered before. bShown: whether
 // only mirrors have scattered it.
@@ -351,19 +323,13 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		Pdf = bCharacter && !isinf(Sample.Pdf) ? 0.0 : Sample.Pdf; // see OtherPdf
 		NdotL = Sample.Direction.z;
 
-		if (Bounce >= 3u)
-		{
-			// Survivors continue with a throughput of RouletteThreshold. Roulette on the throughput itself would cause most
-			// of the noise in bright rooms (closed, albedo 0.9: 10 times the samples for the same error).
-			float SurvivalProbability = min(MaxComponent(Throughput) / RouletteThreshold, 1.0);
-			if (NextRandom4(Random).x >= SurvivalProbability) { return Radiance; }
-			Throughput /= SurvivalProbability;
-		}
+		if (Bounce >= 3u && EndsByRoulette(Throughput, Random)) { return Radiance; }
 		Channels = Hit.Channels;
 		Origin = P;
 #ifdef HAS_TRANSMISSION
 		ScatterPassages(Passages);
 #endif
+		SEES_HITS(bSeesHits && isinf(Sample.Pdf));
 		Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 #ifdef KEEPS_HIT
 		bMirrored = bMirrored && isinf(Sample.Pdf) && SpecularProbability(Brdf, LocalV) >= 1.0; // else the choice is chance
@@ -437,6 +403,7 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 #endif
 	vec3 Direction = Gathered.Direction = Basis * Sample.Direction;
 	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Gathered; }
+	SEES_HITS(true);
 	FMaterialHit Hit = TraceMaterial(Scene, GatherMask, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 	NOTE_END(PATH_END_SKY);
 	vec3 Radiance = vec3(0.0);

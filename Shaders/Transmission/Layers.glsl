@@ -9,6 +9,7 @@ bool FindLayer(FSceneConstants Scene, inout vec3 Origin, vec3 Direction, inout f
 	const uint MostBacks = 16u;
 	for (uint Back = 0u; Back < MostBacks; ++Back)
 	{
+		SEES_HITS(true);
 		Hit = TraceMaterial(Scene, MASK_TRANSMISSIVE, Origin, Direction, Left, SHOWS_ALL);
 		if (Hit.Distance < 0.0) { return false; }
 		if ((Hit.Flags & HIT_CULLED_SIDE) == 0u) { return (Hit.Flags & HIT_TRANSMISSIVE) != 0u; } // else the raster shows it

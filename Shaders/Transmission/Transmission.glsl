@@ -89,6 +89,7 @@ vec3 FollowPart(FSceneConstants Scene, uint Part, FMaterialHit Hit, FCameraRay R
 	FMaterialHit Next = Hit;
 	vec3 Origin = Ray.Origin, Direction = Ray.Direction;
 	FirstAbsorption = vec3(0.0);
+	SEES_HITS(true);
 	if (Part == FromBase)
 	{
 		OutWeight = vec3(1.0);

@@ -17,6 +17,7 @@
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "LanternImage/AtomicFile.h"
+#include "LanternMeasure/GeneratedMaterials.h"
 
 namespace Lantern
 {
@@ -24,6 +25,7 @@ namespace Lantern
 namespace
 {
 constexpr uint32_t WarmUp = 3;
+constexpr uint64_t ProgramSalt = 1; // one set of programs, so that runs can be compared
 
 struct FGrowthPoint
 {
@@ -62,10 +64,16 @@ FRTStatus MeasurePoint(FSampleEngine& Engine, EGrowthLine Line, const FBenchGrow
 {
 	const bool bIsCpu = Options.bMock || Engine.GetRenderer().GetDevice().GetCapabilities().bIsCpu;
 	FGrowthScene Growth = MakeGrowthScene(Line, Out.Value, bIsCpu);
+	const bool bPrograms = Growth.bPrograms;
 	std::vector<FHostNode> Movers;
 	for (const uint32_t Mover : Growth.Movers) { Movers.push_back(Growth.Scene.Nodes[Mover]); }
 	if (FRTStatus S = Engine.Load(std::move(Growth.Scene)); !S) { return S; }
 	FHostScene& Host = Engine.GetScene();
+	for (uint32_t Material = 0; bPrograms && Material < Out.Value; ++Material)
+	{
+		FMaterialPrograms& Programs = Engine.GetRenderer().GetPrograms();
+		Host.GetScene().SetMaterialProgram(Material, Programs.FindOrAdd(MakeBenchProgram(Material, ProgramSalt)));
+	}
 	FSunLight Sun;
 	Sun.Direction = {0.3, -1, 0.4};
 	Sun.Irradiance = 4.0f;
@@ -183,12 +191,14 @@ void FBenchGrowthOptions::AddTo(CLI::App& App)
 	});
 	Device.AddTo(App);
 	App.add_flag("--mock", bMock, "On the mock device: the plugin's own work alone");
-	App.add_option("--line", Line, "objects, triangles, materials or pixels. Without it: all")->check([](const std::string& Text) {
-		FBenchGrowthOptions Named;
-		Named.Line = Text;
-		return !Text.empty() && !ChooseLines(Named).empty() ? std::string()
-		                                                    : Quote(Text) + " is none of objects, triangles, materials, pixels";
-	});
+	App.add_option("--line", Line, "objects, triangles, materials, programs or pixels. Without it: all")
+	    ->check([](const std::string& Text) {
+		    FBenchGrowthOptions Named;
+		    Named.Line = Text;
+		    return !Text.empty() && !ChooseLines(Named).empty()
+		               ? std::string()
+		               : Quote(Text) + " is none of objects, triangles, materials, programs, pixels";
+	    });
 	App.add_option("--frames", Frames, "Measured frames of each point")->check(CLI::Range(1, 100'000));
 	App.add_option("-o,--output", Output, "A page with the chart, .html")->check([](const std::string& Text) {
 		return std::filesystem::path(Text).extension() == ".html" ? std::string() : Quote(Text) + " does not end in .html";

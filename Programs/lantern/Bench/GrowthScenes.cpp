@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "Bench/BenchFrameWorld.h"
@@ -17,7 +19,8 @@ namespace Lantern
 namespace
 {
 constexpr FGrowthLineInfo Lines[] = {{"objects", "1 % of them move, 6 km, one size of picture"},
-    {"triangles", "256 objects of one mesh each, one material"}, {"materials", "one quad each"}, {"pixels", "1,000 objects"}};
+    {"triangles", "256 objects of one mesh each, one material"}, {"materials", "one quad each"},
+    {"programs", "a room of 1,536 quads in one order of colours, a material for each program"}, {"pixels", "1,000 objects"}};
 constexpr uint32_t TriangleObjects = 256;
 
 /// Gentle hills of about that many triangles over a square of 2 m.
@@ -90,6 +93,52 @@ FGrowthScene MakeWallScene(uint64_t Materials)
 	Out.View = LookAt({0, 0, 40}, {0, 0, 0}, 1.0f, 1, 1);
 	return Out;
 }
+/// A room whose quads take the programs in turn, so that neighbouring rays of indirect light meet different ones. The floor is polished, and
+/// the sky shines in from above.
+FGrowthScene MakeRoomScene(uint64_t Programs)
+{
+	constexpr uint32_t Edge = 16;
+	constexpr double Half = 0.5 * Edge;
+	FGrowthScene Out;
+	Out.bPrograms = true;
+	for (uint64_t I = 0; I <= Programs; ++I)
+	{
+		const bool bFloor = I == Programs;
+		FHostMaterial& Material = Out.Scene.Materials.emplace_back();
+		Material.Name = bFloor ? "floor" : "program " + std::to_string(I);
+		Material.BaseColor = {0.7f, 0.7f, 0.7f, 1.0f};
+		Material.Metallic = bFloor ? 1.0f : 0.0f;
+		Material.Roughness = bFloor ? 0.1f : 1.0f;
+		FHostMesh Mesh = MakeHills(2);
+		Mesh.Sections[0].Material = static_cast<uint32_t>(I);
+		Out.Scene.Meshes.push_back(std::move(Mesh));
+	}
+	// Faces by the axis across them: where their quads look is the inside.
+	const glm::dmat4 Faces[] = {glm::dmat4(1), glm::rotate(glm::dmat4(1), glm::pi<double>(), glm::dvec3(1, 0, 0)),
+	    glm::rotate(glm::dmat4(1), glm::half_pi<double>(), glm::dvec3(1, 0, 0)),
+	    glm::rotate(glm::dmat4(1), -glm::half_pi<double>(), glm::dvec3(1, 0, 0)),
+	    glm::rotate(glm::dmat4(1), glm::half_pi<double>(), glm::dvec3(0, 0, 1)),
+	    glm::rotate(glm::dmat4(1), -glm::half_pi<double>(), glm::dvec3(0, 0, 1))};
+	uint32_t Quad = 0;
+	for (const glm::dmat4& Face : Faces)
+	{
+		for (uint32_t Y = 0; Y < Edge; ++Y)
+		{
+			for (uint32_t X = 0; X < Edge; ++X, ++Quad)
+			{
+				const bool bOpening =
+				    &Face == &Faces[1] && std::abs(double(X) + 0.5 - Half) < 3.0 && std::abs(double(Y) + 0.5 - Half) < 3.0;
+				if (bOpening) { continue; }
+				FHostNode& Node = Out.Scene.Nodes.emplace_back();
+				Node.Mesh = static_cast<int32_t>(&Face == &Faces[0] ? Programs : (Quad * 97u) % Programs);
+				const glm::dvec3 At(double(X) + 0.5 - Half, -Half, double(Y) + 0.5 - Half);
+				Node.Matrix = glm::scale(Face * glm::translate(glm::dmat4(1), At), glm::dvec3(0.5, 0.5, 0.5));
+			}
+		}
+	}
+	Out.View = LookAt({-6, -3, -6}, {6, -1, 6}, 1.2f, 1, 1);
+	return Out;
+}
 } // namespace
 
 const FGrowthLineInfo& GetGrowthLine(EGrowthLine Line) { return Lines[static_cast<size_t>(Line)]; }
@@ -102,6 +151,7 @@ std::vector<uint64_t> ListGrowthPoints(EGrowthLine Line, bool bIsCpu, bool bQuic
 	case EGrowthLine::Objects: Points = {1000, 10'000, 100'000, 1'000'000}; break;
 	case EGrowthLine::Triangles: Points = {10'000, 100'000, 1'000'000, 10'000'000}; break;
 	case EGrowthLine::Materials: Points = {16, 256, 4096, 16'384}; break;
+	case EGrowthLine::Programs: Points = {1, 8, 64, 256}; break;
 	case EGrowthLine::Pixels:
 		for (const uint64_t Width : {160, 320, 640, 1280, 2560, 3840}) { Points.push_back(Width * Width * 9 / 16); }
 		break;
@@ -119,6 +169,7 @@ FGrowthScene MakeGrowthScene(EGrowthLine Line, uint64_t Value, bool bIsCpu)
 	case EGrowthLine::Objects: Out = MakeWorldScene(Value); break;
 	case EGrowthLine::Triangles: Out = MakeHillScene(Value); break;
 	case EGrowthLine::Materials: Out = MakeWallScene(Value); break;
+	case EGrowthLine::Programs: Out = MakeRoomScene(Value); break;
 	default: Out = MakeWorldScene(1000); break;
 	}
 	Out.View.Width = bIsCpu ? 160 : 1280;

@@ -14,6 +14,7 @@ struct FGrowthScene
 	FSceneDescription Scene;
 	FView View;
 	std::vector<uint32_t> Movers; ///< instances that move in each frame
+	bool bPrograms = false;       ///< each material has a program of its own
 };
 
 enum class EGrowthLine
@@ -21,6 +22,7 @@ enum class EGrowthLine
 	Objects,
 	Triangles,
 	Materials,
+	Programs,
 	Pixels,
 	Count
 };

@@ -16,6 +16,14 @@ enum class ERayPath : uint8_t
 	Query,
 };
 
+/// Whose program a pass's rays run where they hit a material that has one of its own.
+enum class EHitPrograms : uint8_t
+{
+	Own,
+	OwnWhereSeen, ///< the material's where a camera or mirrors alone see it, and the standard one where it only lights
+	Standard,
+};
+
 /// What the passes of one frame are chosen by.
 struct FPassQuery
 {
@@ -34,9 +42,10 @@ struct FPassRays
 	/// Its rays shade what they hit and may sample the scene's emissive triangles (Shaders/Rays/PathTracing.glsl). If
 	/// false, it casts shadow rays only, and the RTPSO needs no closest-hit shader for it.
 	bool bShadesHits = false;
-	bool bLightSampling = false; ///< its other shaders sample emissive triangles
-	bool bTraces = true;         ///< false: the scene leaves nothing to trace, and only passes around the rays are made
-	bool bBlockers = false;      ///< its shadow rays report the distance of the blocker
+	EHitPrograms HitPrograms = EHitPrograms::Own; ///< with bShadesHits; see SetHitPrograms
+	bool bLightSampling = false;                  ///< its other shaders sample emissive triangles
+	bool bTraces = true;                          ///< false: the scene leaves nothing to trace, and only passes around the rays are made
+	bool bBlockers = false;                       ///< its shadow rays report the distance of the blocker
 	/// Its paths end in radiance cells (RadianceCells/RadianceCells.h). Those that meet none go on in a second launch of its shader, with
 	/// MakeDeferredRays (BruteForce/BruteForce.h).
 	bool bRadianceCells = false;
@@ -61,6 +70,10 @@ ERayPath ChoosePipelinePath(const FPassQuery& Query, const std::string& Variable
 /// Adds the define REORDER for ray generation shaders whose rays run material shaders, if r.RT.Reorder is on and the device can. Logs
 /// once if it cannot.
 void AddReorderDefine(const FRTCapabilities& Capabilities, FShaderDefines& Defines);
+
+/// Sets whose programs the rays of a pipeline run, unless r.RT.GI.Materials says that each material runs its own. Ray queries know the
+/// standard program alone.
+void SetHitPrograms(EHitPrograms Wanted, FPassRays& InOut);
 
 /// One pass's pipeline in this frame.
 struct FRayDispatch

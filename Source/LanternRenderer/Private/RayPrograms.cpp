@@ -47,10 +47,12 @@ FRayType MakeShadowRay(const FSceneFacts& Facts, bool bBlockers)
 	return Type;
 }
 
-FRayType MakeMaterialRay(const FSceneFacts& Facts)
+/// bStandard: materials are seen as the standard program shows them.
+FRayType MakeMaterialRay(const FSceneFacts& Facts, bool bStandard)
 {
 	FRayType Type;
-	Type.Name = "MATERIAL";
+	Type.Name = bStandard ? "STANDARD" : "MATERIAL";
+	Type.bStandardProgram = bStandard;
 	Type.Miss = Shader("Rays/Material.rmiss");
 	Type.ClosestHit = Shader("Rays/Material.rchit");
 	AddLightEmissionDefine(Facts, Type.ClosestHit->Defines);
@@ -67,7 +69,7 @@ FRayType MakeMaterialRay(const FSceneFacts& Facts)
 struct FCollector
 {
 	FRayPrograms& Programs;
-	bool bShadesHits = false, bBlockers = false, bFilters = false, bFollowsHits = false;
+	bool bOwnHits = false, bStandardHits = false, bBlockers = false, bFilters = false, bFollowsHits = false;
 	ERayPath RadianceCells = ERayPath::None; ///< of the pass that ends in them
 
 	void Add(ESignal Signal, FPassRays Rays, const std::string& RayGenPath)
@@ -84,7 +86,8 @@ struct FCollector
 		RayGen.Defines = std::move(Rays.Defines);
 		std::vector<FShaderSource>& All = Programs.Desc.RayGens;
 		if (std::find(All.begin(), All.end(), RayGen) == All.end()) { All.push_back(RayGen); } // signals may share one
-		bShadesHits |= Rays.bShadesHits;
+		bOwnHits |= Rays.bShadesHits && Rays.HitPrograms != EHitPrograms::Standard;
+		bStandardHits |= Rays.bShadesHits && Rays.HitPrograms != EHitPrograms::Own;
 		bBlockers |= Rays.bBlockers;
 		Programs.bLightSampling |= Rays.bShadesHits;
 		return RayGen;
@@ -155,6 +158,15 @@ void CollectPass(FCollector& Collector, EPassRayGen Pass, const char* Path, FPas
 	Compute.insert(Compute.end(), Rays.Compute.begin(), Rays.Compute.end());
 	if (Rays.Path == ERayPath::Pipeline) { Collector.Add(Pass, std::move(Rays), std::string(Path) + ".rgen"); }
 }
+/// Types of rays that shade hits. Where no material has a program of its own, one type does for both.
+void AddMaterialRays(const FCollector& Collector, const FSceneFacts& Facts, FRTPSODesc& Desc)
+{
+	const auto IsOwn = [](FHitProgram Hit) { return Hit.Program != StandardProgram && Hit.Class != ERTHitClass::Procedural; };
+	const bool bPrograms = std::any_of(Desc.HitPrograms.begin(), Desc.HitPrograms.end(), IsOwn);
+	const bool bStandard = Collector.bStandardHits && bPrograms;
+	if (Collector.bOwnHits || (Collector.bStandardHits && !bPrograms)) { Desc.RayTypes.push_back(MakeMaterialRay(Facts, false)); }
+	if (bStandard) { Desc.RayTypes.push_back(MakeMaterialRay(Facts, true)); }
+}
 } // namespace
 
 FRayPrograms ChooseRayPrograms(
@@ -162,7 +174,8 @@ FRayPrograms ChooseRayPrograms(
 {
 	FRayPrograms Programs;
 	FRTPSODesc& Desc = Programs.Desc;
-	FCollector Collector{Programs, !Features.RayGens.empty()};
+	FCollector Collector{Programs};
+	Collector.bOwnHits = !Features.RayGens.empty();
 	const FSceneFacts Facts = AddFrameFacts(Scene.GetFacts(), Features, Requests);
 	if (Features.bReference)
 	{
@@ -199,9 +212,9 @@ FRayPrograms ChooseRayPrograms(
 		return Programs;
 	}
 	Desc.RayTypes = {MakeShadowRay(Facts, Collector.bBlockers)};
-	if (Collector.bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay(Facts)); }
-	Desc.Callables = Features.Callables;
 	Desc.HitPrograms = Scene.GetSections().GetHitPrograms();
+	AddMaterialRays(Collector, Facts, Desc);
+	Desc.Callables = Features.Callables;
 	return Programs;
 }
 

@@ -108,6 +108,26 @@ TEST_F(FPipelineCompilerTest, WhatNoProgramChangesIsCompiledOnceForAll)
 	EXPECT_EQ(Masked.AnyHit, "SHADOW.any (Moss)");
 }
 
+TEST_F(FPipelineCompilerTest, RaysOfStandardHitsRunNoOtherProgram)
+{
+	const FRayType Material = Wanted.RayTypes[1];
+	FRayType& Standard = Wanted.RayTypes.emplace_back(Material);
+	Standard.Name = "STANDARD";
+	Standard.bStandardProgram = true;
+	const uint32_t Rust = AddProgram("Rust"), Moss = AddProgram("Moss", ERTHitClass::Masked);
+	UntilIdle();
+	const auto Current = Maker->GetCurrent();
+	ASSERT_TRUE(Current);
+	const std::string Name = ResolveHit(*Current, 1, Opaque(StandardProgram)).ClosestHit;
+	EXPECT_EQ(Name, "MATERIAL.hit");
+	for (const FHitProgram Program : {Opaque(StandardProgram), Opaque(Rust), FHitProgram{Moss, ERTHitClass::Masked}})
+	{
+		EXPECT_EQ(ResolveHit(*Current, 2, Program).ClosestHit, Name);
+	}
+	EXPECT_EQ(ResolveHit(*Current, 2, {Moss, ERTHitClass::Masked}).AnyHit, "MATERIAL.any");
+	EXPECT_EQ(ResolveHit(*Current, 1, Opaque(Rust)).ClosestHit, "MATERIAL.hit (Rust)") << "other rays are as before";
+}
+
 TEST_F(FPipelineCompilerTest, MostHitComesFirstThenNearest)
 {
 	Set("r.RT.Pipeline.Threads", "1");

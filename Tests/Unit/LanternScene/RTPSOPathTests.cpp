@@ -230,11 +230,15 @@ TEST_P(FPipelinePathTest, ProceduralGroupsRunTheProgramsIntersection)
 	const uint32_t Ball = Programs->Add({.Name = "Ball", .Text = MakeText(1), .IntersectionPath = "Sphere.rint"});
 	const FHitProgram Program{Ball, ERTHitClass::Procedural};
 	Wanted.HitPrograms.push_back(Program);
+	const FRayType Material = Wanted.RayTypes[1];
+	Wanted.RayTypes.emplace_back(Material).bStandardProgram = true;
 	UntilIdle();
 	auto Current = Maker->GetCurrent();
 	EXPECT_EQ(ResolveHit(*Current, 1, Program).Intersection, "Sphere.rint (Ball)");
 	EXPECT_EQ(ResolveHit(*Current, 1, Program).ClosestHit, "MATERIAL.hit (Ball)");
 	EXPECT_EQ(ResolveHit(*Current, 0, Program).Intersection, "Sphere.rint (Ball)") << "shadow rays must hit it too";
+	EXPECT_EQ(ResolveHit(*Current, 2, Program).Intersection, "Sphere.rint (Ball)") << "and rays that see the standard program alone";
+	EXPECT_EQ(ResolveHit(*Current, 2, Program).ClosestHit, "MATERIAL.hit (Ball)");
 	const FHitProgram Unknown{Ball + 1, ERTHitClass::Procedural};
 	EXPECT_EQ(Current->GetState(Unknown), ERTHitState::StandIn);
 	EXPECT_EQ(ResolveHit(*Current, 1, Unknown).Intersection, "Rays/NoIntersection.rint (StandIn)");

@@ -250,6 +250,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	{
 		AddRadianceCellDefines(Rays.Defines);
 		Rays.Defines.emplace_back(DefersPaths, "1");
+		SetHitPrograms(EHitPrograms::Standard, Rays);
 	}
 	ListLightCellShaders(Query.Facts, Rays.Compute);
 	if (Rays.Path == ERayPath::Pipeline) { AddReorderDefine(Query.Capabilities, Rays.Defines); }

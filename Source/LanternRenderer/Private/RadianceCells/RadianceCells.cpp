@@ -243,6 +243,7 @@ FPassRays ChooseRadianceCellRays(const FPassQuery& Query, ERayPath Path)
 	AddRadianceCellDefines(Rays.Defines);
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
 	if (Path == ERayPath::Pipeline) { AddReorderDefine(Query.Capabilities, Rays.Defines); }
+	SetHitPrograms(EHitPrograms::Standard, Rays);
 	Rays.bShadesHits = true;
 	Rays.Shaders = RadianceCellShaders;
 	for (const char* Name : SourceNames) { Rays.Compute.push_back(MakeSource(Name)); }

@@ -241,6 +241,7 @@ FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const F
 	if (ChooseRadianceCellPath(Query) != ERayPath::None) { AddRadianceCellDefines(Rays.Defines); }
 	if (Rays.Path == ERayPath::Pipeline) { AddReorderDefine(Query.Capabilities, Rays.Defines); }
 	if (ArePathEndsCounted()) { Rays.Defines.emplace_back("COUNTS_ENDS", "1"); }
+	SetHitPrograms(EHitPrograms::OwnWhereSeen, Rays);
 	Rays.bShadesHits = true;
 	Rays.Shaders = "Reflections/Paths";
 	ListLightCellShaders(Query.Facts, Rays.Compute);

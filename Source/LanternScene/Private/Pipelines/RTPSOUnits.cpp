@@ -75,6 +75,7 @@ FPipelineUnit MakeEmptyCallableUnit()
 FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram Program, const FMaterialPrograms& Programs)
 {
 	const FRayType& Type = Desc.RayTypes[RayType];
+	if (Type.bStandardProgram && Program.Class != ERTHitClass::Procedural) { Program.Program = StandardProgram; }
 	FPipelineUnit Unit;
 	if (IsShared(Type, Program.Class))
 	{

@@ -22,7 +22,9 @@ struct FRayType
 	FShaderSource Miss;
 	std::optional<FShaderSource> ClosestHit;
 	bool bSharedClosestHit = false; ///< ClosestHit runs no material program: all opaque hit programs share one group
-	FShaderSource MaskedAnyHit;     ///< the alpha test
+	/// All materials are seen as the standard program shows them, which their hit groups run in place of their own. Own shapes keep theirs.
+	bool bStandardProgram = false;
+	FShaderSource MaskedAnyHit; ///< the alpha test
 	uint32_t PayloadBytes = 0;
 	friend bool operator==(const FRayType&, const FRayType&) = default;
 };
