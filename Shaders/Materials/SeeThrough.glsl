@@ -15,6 +15,7 @@ float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primiti
 	FetchPositions(Section, Primitive, P0, P1, P2);
 	vec3 Normal = cross(P1 - P0, P2 - P0);
 	FMaterialInputs Inputs = FetchMaterialInputs(Section, Primitive, Barycentrics);
+	if ((Material.Flags & MATERIAL_BLENDED) != 0u) { return -log(max(1.0 - EvaluateOpacity(Material, Inputs), Least)); }
 	float Cosine = abs(dot(Normal, Direction)) * inversesqrt(max(dot(Normal, Normal) * dot(Direction, Direction), 1.0e-30));
 	float Ratio = (Material.Ior - 1.0) / (Material.Ior + 1.0), R = Material.Specular * mix(Ratio * Ratio, 1.0, SchlickWeight(Cosine));
 	if ((Material.Flags & MATERIAL_SOLID) == 0u) { R = SheetReflectance(R); }

@@ -22,6 +22,9 @@ struct FMaterialSurface
 	float Transmission; // share of what the layer lets in that shines through. Counts only where FMaterialData::Transmission is not 0
 };
 
+// Blended surfaces of at least this opacity are solid: the raster shows them. What shows less is a layer before it.
+const float LeastSolidOpacity = 1.0 - 0.5 / 255.0;
+
 #ifdef MATERIAL_IMPLICIT_LOD
 #define SampleMaterialTexture(Slot, UV)                                                                                \
 	texture(sampler2D(Textures[nonuniformEXT(SLOT_TEXTURE(Slot))], Samplers[nonuniformEXT(SLOT_SAMPLER(Slot))]), UV)

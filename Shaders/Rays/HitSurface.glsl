@@ -30,7 +30,7 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	bool bCulledSide = !bFront && (Section.Flags & SECTION_DOUBLE_SIDED) == 0u;
 #ifdef HAS_TRANSMISSION
 	bool bTransmissive = Material.Transmission > 0.0 && (Material.Metallic < 1.0 || HasTexture(Material, TEXTURE_METALLIC_ROUGHNESS));
-	bool bSolid = bTransmissive && (Material.Flags & MATERIAL_SOLID) != 0u;
+	bool bSolid = bTransmissive && (Material.Flags & MATERIAL_SOLID) != 0u, bBlended = (Material.Flags & MATERIAL_BLENDED) != 0u;
 	bCulledSide = bCulledSide && !bSolid; // a camera in a solid sees its surface
 #endif
 	if (!bFront)
@@ -55,8 +55,9 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	Hit.Channels = LoadObjectChannels(Scene, Place.Object);
 	Hit.Object = Place.Object;
 #ifdef HAS_TRANSMISSION
-	Hit.Transmission = bTransmissive ? Surface.Transmission : 0.0;
-	Hit.Flags |= bTransmissive ? HIT_TRANSMISSIVE : 0u;
+	Hit.Transmission = bBlended ? 1.0 - clamp(Surface.Opacity, 0.0, 1.0) : bTransmissive ? Surface.Transmission : 0.0;
+	Hit.Flags |= (bTransmissive || bBlended ? HIT_TRANSMISSIVE : 0u) | (bBlended ? HIT_BLENDED : 0u);
+	if (bBlended) { Hit.Emissive *= 1.0 - Hit.Transmission; }
 	Hit.Absorption = bSolid ? Material.Absorption : vec3(0.0);
 	Hit.Flags |= bSolid ? (bFront ? HIT_SOLID : HIT_SOLID | HIT_INSIDE) : 0u;
 #endif

@@ -6,7 +6,7 @@
 //   W2 geometric normal, octahedral  W6 emission rg fp16
 //   W3 base colour rg unorm16        W7 emission b fp16 | light-sampling weight fp16
 //                                    W8 object
-// HAS_TRANSMISSION: the upper 8 bits of W8, which no object needs, are inside 1 | solid 1 | transmissive 1. Two words are added.
+// HAS_TRANSMISSION: the upper 8 bits of W8, which no object needs, are inside 1 | solid 1 | transmissive 1 | blended 1. Two words are added.
 //   W9 absorption rg fp16            W10 absorption b fp16 | transmission unorm16
 // The four fp16 are never negative: their signs are the upper channels.
 #ifndef LANTERN_MATERIAL_PAYLOAD_GLSL
@@ -37,6 +37,7 @@ const float MaxEmission = 65504.0 / EmissionScale; // nits
 #define HIT_INSIDE 8u       // the ray arrives from within a solid
 #define HIT_SOLID 16u       // the surface of a volume that light shines through
 #define HIT_TRANSMISSIVE 32u // light shines through its material, if not through this place of it
+#define HIT_BLENDED 64u      // light passes beside what the surface covers. Transmission is the share that it leaves uncovered
 
 struct FMaterialHit
 {
@@ -76,7 +77,7 @@ FMaterialPayload PackHit(FMaterialHit Hit)
 	Payload.W7 = (packHalf2x16(vec2(Emission.b, Hit.EmissiveWeight)) & ~SignsOf(3u)) | SignsOf(Hit.Channels >> 6);
 	Payload.W8 = Hit.Object;
 #ifdef HAS_TRANSMISSION
-	Payload.W8 |= (Hit.Flags & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE)) << 21;
+	Payload.W8 |= (Hit.Flags & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE | HIT_BLENDED)) << 21;
 	Payload.W9 = packHalf2x16(min(Hit.Absorption.rg, vec2(65504.0)));
 	Payload.W10 = (packHalf2x16(vec2(min(Hit.Absorption.b, 65504.0), 0.0)) & 0xffffu) | (uint(clamp(Hit.Transmission, 0.0, 1.0) * 65535.0 + 0.5) << 16);
 #endif
@@ -102,7 +103,7 @@ FMaterialHit UnpackHit(FMaterialPayload Payload)
 	Hit.EmissiveWeight = BlueAndWeight.y;
 #ifdef HAS_TRANSMISSION
 	Hit.Object = Payload.W8 & 0xffffffu;
-	Hit.Flags |= (Payload.W8 >> 21) & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE);
+	Hit.Flags |= (Payload.W8 >> 21) & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE | HIT_BLENDED);
 	Hit.Transmission = float(Payload.W10 >> 16) / 65535.0;
 	Hit.Absorption = vec3(unpackHalf2x16(Payload.W9), unpackHalf2x16(Payload.W10).x);
 #else

@@ -7,8 +7,17 @@
 
 const uint MostPassages = 16u; // surfaces of this kind on a path; one that is caught between more ends
 
-// Of what is no metal: the share of light that meets a mere interface, and neither base colour nor metal.
-float InterfaceShare(FMaterialHit Hit) { return Hit.Transmission * (1.0 - Hit.Metallic); }
+// Whether the hit is one of a surface that covers a share of its place, and leaves the rest as it is.
+bool IsBlended(FMaterialHit Hit) { return (Hit.Flags & HIT_BLENDED) != 0u; }
+
+// The share of light that meets a mere interface, and neither base colour nor metal; of a blended surface, that meets nothing.
+float InterfaceShare(FMaterialHit Hit) { return IsBlended(Hit) ? Hit.Transmission : Hit.Transmission * (1.0 - Hit.Metallic); }
+
+// What an interface leaves of light that passes.
+vec3 InterfaceTint(FMaterialHit Hit) { return IsBlended(Hit) ? vec3(1.0) : Hit.BaseColor; }
+
+// Whether light that passes a sheet goes straight on.
+bool PassesStraight(FMaterialHit Hit) { return IsBlended(Hit) || Hit.Roughness * Hit.Roughness < MinAlpha; }
 
 // Refractive index of a dielectric of F0, against the air.
 float IndexOf(float F0)
@@ -21,6 +30,7 @@ float IndexOf(float F0)
 // Eta: index on the side of the ray over that behind.
 float InterfaceReflectance(FMaterialHit Hit, float Cosine, float Eta)
 {
+	if (IsBlended(Hit)) { return 0.0; }
 	if ((Hit.Flags & HIT_SOLID) == 0u)
 	{
 		return SheetReflectance(Hit.Specular * mix(Hit.F0, 1.0, SchlickWeight(Cosine)));
@@ -42,7 +52,7 @@ vec3 StraightTransmittance(FMaterialHit Hit, vec3 Direction, float From)
 {
 	float Cosine = abs(dot(Hit.Normal, Direction));
 	float R = (Hit.Flags & HIT_SOLID) != 0u ? Hit.Specular * mix(Hit.F0, 1.0, SchlickWeight(Cosine)) : InterfaceReflectance(Hit, Cosine, 1.0);
-	vec3 T = Hit.BaseColor * (InterfaceShare(Hit) * (1.0 - R));
+	vec3 T = InterfaceTint(Hit) * (InterfaceShare(Hit) * (1.0 - R));
 	return (Hit.Flags & HIT_INSIDE) != 0u ? T * exp(-Hit.Absorption * From) : T;
 }
 
@@ -76,7 +86,7 @@ FPassage SamplePassage(FMaterialHit Hit, mat3 Basis, vec3 V, vec3 U)
 #ifdef LIKELIEST_PASSAGE
 	const bool bSmooth = true; // what is rough spreads what it shows
 #else
-	bool bSmooth = Alpha < MinAlpha;
+	bool bSmooth = PassesStraight(Hit);
 #endif
 	bool bSolid = (Hit.Flags & HIT_SOLID) != 0u;
 	vec3 H = bSmooth ? vec3(0.0, 0.0, 1.0) : SampleVisibleNormal(V, Alpha, U.xy);
@@ -85,7 +95,7 @@ FPassage SamplePassage(FMaterialHit Hit, mat3 Basis, vec3 V, vec3 U)
 	vec3 Local = reflect(-V, H);
 	if (Passage.bThrough) { Local = bSolid ? refract(-V, H, Eta) : vec3(Local.xy, -Local.z); }
 	if (Passage.bThrough && !bSolid && bSmooth) { Local = -V; } // exactly straight on
-	Passage.Weight = Passage.bThrough ? Hit.BaseColor : vec3(1.0);
+	Passage.Weight = Passage.bThrough ? InterfaceTint(Hit) : vec3(1.0);
 	if (!bSmooth)
 	{
 		float Before = SmithLambda(V.z, Alpha), Behind = SmithLambda(Local.z, Alpha);

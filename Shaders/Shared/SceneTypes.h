@@ -77,7 +77,7 @@ LANTERN_ASSERT_SIZE(FVertexStreams, 104);
 #define SECTION_IS_PIECES 512u
 // The vertices lie in a host's own buffers: Attributes is the address of an FVertexStreams.
 #define SECTION_STREAMS 1024u
-#define SECTION_TRANSMISSIVE 2048u // light shines through: rays to lights pass, others meet it
+#define SECTION_TRANSMISSIVE 2048u // light shines through, or between: rays to lights pass, others meet it
 
 // One section of an object: its triangles and its material. It is the local data of a hit record, and an entry of the section
 // table that inline ray queries read.
@@ -94,6 +94,7 @@ LANTERN_ASSERT_SIZE(FSectionData, 32);
 // FMaterialData::Flags
 #define MATERIAL_MASKED 1u
 #define MATERIAL_DOUBLE_SIDED 2u
+#define MATERIAL_BLENDED 8u // the opacity is the share that the surface covers; without transmission it is cut at AlphaCutoff
 #define MATERIAL_SOLID 4u // what light shines through is the surface of a volume, which bends and absorbs it. Else it is a thin sheet
 
 #define NO_TEXTURE 0xffffffffu

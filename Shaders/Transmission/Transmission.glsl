@@ -135,7 +135,7 @@ void AddPart(FSceneConstants Scene, FViewConstants View, uint Part, vec3 Weight,
 bool AddLayer(FSceneConstants Scene, FViewConstants View, FMaterialHit Hit, FCameraRay Ray, inout FShown Shown, inout FRandom Random)
 {
 	float Share = InterfaceShare(Hit), Reflected = InterfaceReflectance(Hit, abs(dot(Hit.Normal, Ray.Direction)), EtaOf(Hit));
-	bool bSheet = (Hit.Flags & HIT_SOLID) == 0u, bSmooth = Hit.Roughness * Hit.Roughness < MinAlpha;
+	bool bSheet = (Hit.Flags & HIT_SOLID) == 0u, bSmooth = PassesStraight(Hit);
 	// A camera in the volume.
 	if ((Hit.Flags & HIT_INSIDE) != 0u) { Shown.Through *= exp(-Hit.Absorption * Hit.Distance); }
 	Shown.Light += Shown.Through * Hit.Emissive;
@@ -146,7 +146,7 @@ bool AddLayer(FSceneConstants Scene, FViewConstants View, FMaterialHit Hit, FCam
 		vec3 Weight = Shown.Through * Weights[Part];
 		if (MaxComponent(Weight) > LeastShare) { AddPart(Scene, View, Part, Weight, Hit, Ray, Shown, Random); }
 	}
-	vec3 Behind = Shown.Through * Hit.BaseColor * (Share * (1.0 - Reflected));
+	vec3 Behind = Shown.Through * InterfaceTint(Hit) * (Share * (1.0 - Reflected));
 	Shown.Through = bSheet && bSmooth ? Behind : vec3(0.0);
 	if (bSheet && !bSmooth)
 	{

@@ -60,13 +60,20 @@ const FRasterSource& FGBufferPass::GetSource(const FPipelineKey& Key)
 	return Source;
 }
 
+/// T: a batch or its kind.
+template <class T>
+bool IsTested(const T& Of, const FSceneFacts& Facts)
+{
+	return Of.bMasked && (Facts.bMasked || (Of.bBlended && Facts.bTransmissive));
+}
+
 /// Of all that the scene may draw, in view or not: what comes into view is then there.
-std::vector<FGBufferPass::FPipelineKey> FGBufferPass::ListKeys(const FHostScene& Scene, bool bAlphaTest, bool bWithMotion)
+std::vector<FGBufferPass::FPipelineKey> FGBufferPass::ListKeys(const FHostScene& Scene, const FSceneFacts& Facts, bool bWithMotion)
 {
 	std::vector<FPipelineKey> Keys;
 	for (const FHostScene::FDrawKind& Kind : Scene.GetDrawKinds())
 	{
-		const FPipelineKey Key{Kind.Program, Kind.bMasked && bAlphaTest, Kind.bDoubleSided ? ERTCull::None : ERTCull::Back, bWithMotion};
+		const FPipelineKey Key{Kind.Program, IsTested(Kind, Facts), Kind.bDoubleSided ? ERTCull::None : ERTCull::Back, bWithMotion};
 		Keys.push_back(Key);
 		if (Kind.bDoubleSided || !Scene.GetDrawBlocks().HasMirrored()) { continue; }
 		Keys.push_back(Key);
@@ -89,7 +96,7 @@ void FGBufferPass::Want(const std::vector<FPipelineKey>& Keys)
 std::vector<FGBufferPass::FPipelineKey> FGBufferPass::ListKeys(FHostScene& Scene, const FFrameFeatures& Features) const
 {
 	const bool bFollowed = Renderer.FollowsMotion(Scene.GetScene(), Features); // brings the facts up to date
-	return ListKeys(Scene, Scene.GetScene().GetFacts().bMasked, MayMove(bFollowed));
+	return ListKeys(Scene, Scene.GetScene().GetFacts(), MayMove(bFollowed));
 }
 
 namespace
@@ -141,7 +148,7 @@ IRTPipeline* FGBufferPass::Ask(const FFrameContext& Context, const FPipelineKey&
 /// Returns whether there is something to draw everything with.
 bool FGBufferPass::FindPipelines(const FFrameContext& Context, const FHostScene& Scene, bool bWithMotion)
 {
-	const std::vector<FPipelineKey> Keys = ListKeys(Scene, Context.Facts.bMasked, bWithMotion);
+	const std::vector<FPipelineKey> Keys = ListKeys(Scene, Context.Facts, bWithMotion);
 	if (Context.bWaitForPipelines) { Want(Keys); } // side by side
 	const bool bStandIns = GetPipelineFallback() != ERTFallback::Skip;
 	bool bComplete = true;
@@ -182,9 +189,9 @@ void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHost
 	for (const FDrawList::FRun& Run : Draws.GetRuns())
 	{
 		const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Run.Batch];
-		if (Batch.bTransmissive && !bTransmissive) { continue; }
+		if (Batch.bTransmissive && !Batch.bBlended && !bTransmissive) { continue; }
 		const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : Run.bMirrored ? ERTCull::Front : ERTCull::Back;
-		IRTPipeline* const Pipeline = Pipelines.at({Batch.Program, Batch.bMasked && Frame.Facts.bMasked, Cull, bWithMotion});
+		IRTPipeline* const Pipeline = Pipelines.at({Batch.Program, IsTested(Batch, Frame.Facts), Cull, bWithMotion});
 		if (!Pipeline) { continue; }
 		if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
 		if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }

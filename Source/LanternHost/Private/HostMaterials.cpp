@@ -111,7 +111,7 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 		Data.Transmission = Source.Transmission;
 		Data.Absorption = Source.Absorption;
 		Data.Flags = (Source.AlphaMode != EAlphaMode::Opaque ? MATERIAL_MASKED : 0u) | (Source.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |
-		             (Source.bSolid ? MATERIAL_SOLID : 0u);
+		             (Source.bSolid ? MATERIAL_SOLID : 0u) | (IsBlended(Source) ? MATERIAL_BLENDED : 0u);
 		glm::vec3 MeanEmission = Data.LightEmissive;
 		for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot)
 		{
@@ -130,7 +130,7 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 			}
 			if (Slot == TEXTURE_EMISSIVE) { MeanEmission *= ImageMeans[HostTexture.Image]; }
 		}
-		Data.EmissiveWeight = MakeEmissiveWeight(MeanEmission);
+		Data.EmissiveWeight = IsBlended(Source) ? 0.0f : MakeEmissiveWeight(MeanEmission); // light sampling counts whole triangles
 		const std::string& Path = Source.Program;
 		Scene.AddMaterial(
 		    Data, Path.empty() ? StandardProgram : Programs.FindOrAdd({.Name = std::filesystem::path(Path).stem().string(), .Path = Path}));

@@ -7,13 +7,17 @@
 namespace Lantern
 {
 
+/// Transmission says more than coverage does, and counts alone.
+inline bool IsBlended(const FHostMaterial& Material) { return Material.AlphaMode == EAlphaMode::Blend && Material.Transmission <= 0.0f; }
+
 /// As the scene has it: a map may leave a part that is no metal.
 inline bool IsTransmissive(const FHostMaterial& Material)
 {
+	if (IsBlended(Material)) { return true; }
 	return Material.Transmission > 0.0f && (Material.Metallic < 1.0f || Material.Slots[TEXTURE_METALLIC_ROUGHNESS].Texture >= 0);
 }
 
-/// Blending needs an order; until there is one, a blended surface is cut at half its opacity.
+/// Without transmission (r.RT.Transmission), a blended surface is cut at half its opacity.
 inline float GetAlphaCutoff(const FHostMaterial& Material) { return Material.AlphaMode == EAlphaMode::Blend ? 0.5f : Material.AlphaCutoff; }
 
 /// But for its name.

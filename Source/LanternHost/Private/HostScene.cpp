@@ -192,7 +192,7 @@ uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Mat
 		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
 		const FHostMaterial& Material = Description.Materials[Materials[Section]];
 		const FDrawBatch Batch{Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Section,
-		    Material.AlphaMode != EAlphaMode::Opaque, Material.bDoubleSided, IsTransmissive(Material),
+		    Material.AlphaMode != EAlphaMode::Opaque, Material.bDoubleSided, IsBlended(Material), IsTransmissive(Material),
 		    Scene.GetMaterialProgram(Materials[Section])};
 		std::vector<uint32_t>& OfMesh = BatchesOfMesh[Mesh];
 		const auto Found = std::find_if(OfMesh.begin(), OfMesh.end(), [&](uint32_t Index) { return Batches[Index] == Batch; });
@@ -204,7 +204,7 @@ uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Mat
 		List.push_back(static_cast<uint32_t>(Batches.size()));
 		OfMesh.push_back(List.back());
 		Batches.push_back(Batch);
-		DrawKinds.insert({Batch.Program, Batch.bMasked, Batch.bDoubleSided});
+		DrawKinds.insert({Batch.Program, Batch.bMasked, Batch.bDoubleSided, Batch.bBlended});
 	}
 	// Most sets of materials give equal batches. They share one list, which then stays in the CPU cache.
 	const auto [First, bNewList] = BatchLists.try_emplace(List, static_cast<uint32_t>(BatchIndices.size()));

@@ -307,8 +307,9 @@ FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 	Data.Specular = Material.Specular;
 	Data.Transmission = Material.Transmission;
 	Data.Absorption = glm::min(-glm::log(ReadVector(Material.AttenuationColor, 0)) / Material.AttenuationDistance, glm::vec3(1.0e6f));
-	Data.Flags = (Material.bMasked ? MATERIAL_MASKED : 0u) | (Material.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |
-	             (Material.bSolid ? MATERIAL_SOLID : 0u);
+	const bool bBlended = Material.bBlended && Material.Transmission <= 0.0f;
+	Data.Flags = (Material.bMasked || bBlended ? MATERIAL_MASKED : 0u) | (Material.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |
+	             (Material.bSolid ? MATERIAL_SOLID : 0u) | (bBlended ? MATERIAL_BLENDED : 0u);
 	const std::array<const FRTModuleMap*, MaterialMapCount> Maps = GetMaps(Material);
 	static_assert(MaterialMapCount == TEXTURE_SLOTS);
 	for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot)
@@ -323,7 +324,7 @@ FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 		assert(bFits && "CheckMaterial has seen to it");
 	}
 	const glm::vec3 Mean = Material.EmissiveMap.Texture != nullptr ? ReadVector(Material.EmissiveMapMean, 0) : glm::vec3(1);
-	Data.EmissiveWeight = MakeEmissiveWeight(Data.LightEmissive * Mean);
+	Data.EmissiveWeight = bBlended ? 0.0f : MakeEmissiveWeight(Data.LightEmissive * Mean);
 	return Data;
 }
 

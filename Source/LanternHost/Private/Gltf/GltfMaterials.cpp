@@ -181,15 +181,11 @@ void ReadUnlit(FDocument& Document, const FJson& Json, FHostMaterial& Material)
 	}
 }
 
-void ReadAlpha(FDocument& Document, const FJson& Json, FHostMaterial& Material)
+void ReadAlpha(const FJson& Json, FHostMaterial& Material)
 {
 	const std::string Mode = Json.GetString("alphaMode", "OPAQUE");
 	if (Mode == "MASK") { Material.AlphaMode = EAlphaMode::Mask; }
-	else if (Mode == "BLEND")
-	{
-		Material.AlphaMode = EAlphaMode::Blend;
-		Document.Warn("alphaMode BLEND: blended materials are not composited");
-	}
+	else if (Mode == "BLEND") { Material.AlphaMode = EAlphaMode::Blend; }
 	else if (Mode != "OPAQUE") { Json.Fail(fmt::format("{} is no alphaMode", Quote(Mode))); }
 	Material.AlphaCutoff = std::max(Json.GetFloat("alphaCutoff", 0.5f), 0.0f);
 	Material.bDoubleSided = Json.GetBool("doubleSided", false);
@@ -213,7 +209,7 @@ FHostMaterial ReadMaterial(FDocument& Document, FTextureTable& Table, const FJso
 	Material.NormalScale = Normal.GetFloat("scale", 1.0f);
 	const FJson Occlusion = Json.Member("occlusionTexture");
 	Material.OcclusionStrength = Clamp01(Occlusion, "strength", 1.0f);
-	ReadAlpha(Document, Json, Material);
+	ReadAlpha(Json, Material);
 	ReadExtensions(Document, Json, Material);
 	ReadTransmission(Document, Table, Json, Material);
 	ReadUnlit(Document, Json, Material);

@@ -42,7 +42,7 @@ private:
 		friend auto operator<=>(const FPipelineKey&, const FPipelineKey&) = default;
 	};
 	bool MayMove(bool bFollowed) const;
-	static std::vector<FPipelineKey> ListKeys(const FHostScene& Scene, bool bAlphaTest, bool bWithMotion);
+	static std::vector<FPipelineKey> ListKeys(const FHostScene& Scene, const FSceneFacts& Facts, bool bWithMotion);
 	std::vector<FPipelineKey> ListKeys(FHostScene& Scene, const FFrameFeatures& Features) const;
 	FRasterSource MakeSource(const FPipelineKey& Key) const;
 	const FRasterSource& GetSource(const FPipelineKey& Key);

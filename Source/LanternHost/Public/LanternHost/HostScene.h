@@ -52,6 +52,7 @@ public:
 		uint32_t FirstIndex = 0, IndexCount = 0;
 		uint32_t Section = 0; ///< index within the object
 		bool bMasked = false, bDoubleSided = false;
+		bool bBlended = false;               ///< the raster shows what it covers wholly, and rays the rest
 		bool bTransmissive = false;          ///< light shines through it
 		uint32_t Program = StandardProgram;  ///< of the material when the scene was loaded
 		uint32_t FirstPlace = 0, Places = 0; ///< range in a list of all objects by batch
@@ -61,7 +62,7 @@ public:
 	struct FDrawKind
 	{
 		uint32_t Program = StandardProgram;
-		bool bMasked = false, bDoubleSided = false;
+		bool bMasked = false, bDoubleSided = false, bBlended = false;
 		friend auto operator<=>(const FDrawKind&, const FDrawKind&) = default;
 	};
 	/// An object as the raster sees it. Its index is that of the instance.

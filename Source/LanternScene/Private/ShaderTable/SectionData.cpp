@@ -41,6 +41,7 @@ bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
 }
 bool IsAlphaTested(const FSectionContext& Context, const FRTGeometryPart& Part, const FMaterialData& Material)
 {
+	if ((Material.Flags & MATERIAL_BLENDED) != 0 && IsTransmissive(Context, Material)) { return false; }
 	return Context.bAlphaTest && Context.Override != 2 && !Part.bOpaque && (Material.Flags & MATERIAL_MASKED) != 0;
 }
 } // namespace

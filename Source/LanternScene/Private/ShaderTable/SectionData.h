@@ -12,9 +12,10 @@ FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& 
 /// Material is that of the part's section.
 FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material);
 
-/// Returns whether light shines through the material.
+/// Returns whether light shines through the material, or between what it covers.
 inline bool LightShinesThrough(const FMaterialData& Material)
 {
+	if ((Material.Flags & MATERIAL_BLENDED) != 0) { return true; }
 	return Material.Transmission > 0.0f && (Material.Metallic < 1.0f || Material.Textures[TEXTURE_METALLIC_ROUGHNESS] != NO_TEXTURE);
 }
 /// As LightShinesThrough, under the context's override: none has such.
