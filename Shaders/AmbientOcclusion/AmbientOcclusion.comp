@@ -8,7 +8,7 @@ layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE)
 
 bool IsUnoccluded(vec3 Origin, vec3 Direction, float Length)
 {
-	return QueryBlockerDistance(FSceneRef(Push.Pass.Scene).Data, 0u, Push.InstanceMask, Origin, Direction, Length) < 0.0;
+	return QueryTransmittance(FSceneRef(Push.Pass.Scene).Data, 0u, Push.InstanceMask, Origin, Direction, Length) > 0.5;
 }
 
 void main() { TracePixel(gl_GlobalInvocationID.xy); }

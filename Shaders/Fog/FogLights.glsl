@@ -17,10 +17,11 @@ vec3 ScatterLight(FSceneConstants Scene, FLightData Light, vec3 P, vec3 Directio
 	return Irradiance * FogPhase(dot(Sample.Direction, Direction), G);
 }
 
-bool SeesFogLight(FSceneConstants Scene, FLightData Light, FLightSample Sample, vec3 P)
+// Returns the share of its light that arrives.
+float SeesFogLight(FSceneConstants Scene, FLightData Light, FLightSample Sample, vec3 P)
 {
-	if ((Light.Flags & LIGHT_CASTS_SHADOW) == 0u) { return true; }
-	return IsUnblocked(P, Sample.Direction, LightRayLength(Sample, P, Scene.ObjectReach), LocalCasters(false));
+	if ((Light.Flags & LIGHT_CASTS_SHADOW) == 0u) { return 1.0; }
+	return UnblockedShare(P, Sample.Direction, LightRayLength(Sample, P, Scene.ObjectReach), LocalCasters(false));
 }
 
 // Direction: of the camera's ray, unit length.
@@ -51,7 +52,7 @@ vec3 TraceFogLight(FSceneConstants Scene, vec3 P, vec3 Direction, float Radius, 
 	if (Choice == NoLight) { return vec3(0.0); }
 	// Made again rather than kept: registers that live across the walk cost more.
 	vec3 Light = ScatterLight(Scene, Lights.Data[Choice], P, Direction, Radius, G, Numbers.yz, Sample);
-	return SeesFogLight(Scene, Lights.Data[Choice], Sample, P) ? Light * (Total / Chosen) : vec3(0.0);
+	return Light * (Total / Chosen * SeesFogLight(Scene, Lights.Data[Choice], Sample, P));
 }
 
 #endif

@@ -6,9 +6,9 @@
 
 layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE) in;
 
-bool IsUnblocked(vec3 Origin, vec3 Direction, float Length, uint Mask)
+float UnblockedShare(vec3 Origin, vec3 Direction, float Length, uint Mask)
 {
-	return QueryBlockerDistance(FSceneRef(Push.Pass.Scene).Data, Push.RayFlags, Mask, Origin, Direction, Length) < 0.0;
+	return QueryTransmittance(FSceneRef(Push.Pass.Scene).Data, Push.RayFlags, Mask, Origin, Direction, Length);
 }
 
 void main() { LightPair(gl_GlobalInvocationID.xy); }

@@ -1,6 +1,6 @@
 // Lights froxels; the ray-tracing pipeline and the ray-query path share it. Each thread has two slices of a column, and traces one of them
 // in turn. The includer defines
-//   bool IsUnblocked(vec3 Origin, vec3 Direction, float Length, uint Mask)   true: the ray hits nothing
+//   float UnblockedShare(vec3 Origin, vec3 Direction, float Length, uint Mask)   of the light along a ray
 //
 // FOG_SUN, FOG_LIGHTS: defined if the scene has such light. FOG_NEXT_SLICE: planted fault, see r.RT.Debug.Fog.Slice.
 #ifndef LANTERN_FOG_SHADOW_GLSL
@@ -19,7 +19,7 @@ layout(push_constant, scalar) uniform FPush { FFogShadowConstants Push; };
 const float FogRayLength = 1.0e5; // metres, to the sun
 const float MostFogLight = 65504.0; // of a half float
 
-bool IsUnblocked(vec3 Origin, vec3 Direction, float Length, uint Mask);
+float UnblockedShare(vec3 Origin, vec3 Direction, float Length, uint Mask);
 
 #ifdef FOG_LIGHTS
 #include "FogLights.glsl"
@@ -50,7 +50,7 @@ FFogValue TraceFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, 
 #ifdef FOG_SUN
 	Scene.SunOneMinusCos = Push.SunOneMinusCos;
 	vec3 ToSun = Push.SunOneMinusCos > 0.0 ? SampleSunDirection(Scene, NextRandom4(Random).xy) : -Scene.SunDirection;
-	Value.Visibility = IsUnblocked(P, ToSun, FogRayLength, SunCasters(false)) ? 1.0 : 0.0;
+	Value.Visibility = UnblockedShare(P, ToSun, FogRayLength, SunCasters(false));
 #endif
 #ifdef FOG_LIGHTS
 	vec3 Place = vec3(Froxel) + 0.5;

@@ -7,8 +7,10 @@
 #define EMITTER_SHAPES
 #include "LocalPoint.glsl"
 
-bool SeesLight(uint Index, uint Light)
+// Number: of the pixel's rays.
+bool SeesLight(uint Index, uint Light, uint Number)
 {
+	DrawLeastTransmittance(Index, Number + 1u);
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
@@ -33,7 +35,7 @@ void TraceLocal(uint Index, uint Slot)
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uvec2 Tile = uvec2(Index % View.Width, Index / View.Width) / TILE_SIZE;
 	uint Light = FTileLightsRef(Push.TileLights).Data[TileIndex(View, Tile)].Lights[Slot];
-	uint Answer = (1u << (ANSWER_LOCAL_TRACED + Slot)) | (SeesLight(Index, Light) ? 1u << (ANSWER_LOCAL_SEEN + Slot) : 0u);
+	uint Answer = (1u << (ANSWER_LOCAL_TRACED + Slot)) | (SeesLight(Index, Light, Slot) ? 1u << (ANSWER_LOCAL_SEEN + Slot) : 0u);
 	atomicOr(FAnswerRef(Push.Answers).Data[Index], Answer);
 }
 
@@ -42,7 +44,7 @@ void TraceChosen(uint Index, uint Which)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Light = FLightChoiceRef(Push.Choices).Data[ChoiceIndex(View, Index, Which)].Light;
-	uint Answer = (1u << ChosenTracedBit(Which)) | (SeesLight(Index, Light) ? 1u << ChosenSeenBit(Which) : 0u);
+	uint Answer = (1u << ChosenTracedBit(Which)) | (SeesLight(Index, Light, Which) ? 1u << ChosenSeenBit(Which) : 0u);
 	atomicOr(FAnswerRef(Push.Answers).Data[Index], Answer);
 }
 #endif

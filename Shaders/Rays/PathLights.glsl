@@ -25,12 +25,6 @@ float Transmittance(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direc
 #endif
 }
 
-// Whether most of the light arrives.
-bool IsVisible(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
-{
-	return Transmittance(Scene, Casters, Origin, Direction, Distance) > 0.5;
-}
-
 // Returns the part of a light's that arrives.
 vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
 {

@@ -74,13 +74,4 @@ float QueryTransmittance(FSceneConstants Scene, uint Flags, uint Mask, vec3 Orig
 	return IsRayQueryMiss() ? exp(-RayDepth) : 0.0;
 }
 
-// Returns the distance to a blocker, which need not be the nearest one; negative: the ray is unblocked. What leaves less than half of the
-// light blocks it, at an unknown distance.
-float QueryBlockerDistance(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance)
-{
-	TraceRayQuery(Scene, Flags | gl_RayFlagsTerminateOnFirstHitEXT, Mask, Origin, Direction, MaxDistance);
-	if (IsRayQueryMiss()) { return RayDepth < 0.69314718 ? -1.0 : 0.0; }
-	return rayQueryGetIntersectionTEXT(RayQuery, true);
-}
-
 #endif

@@ -10,6 +10,6 @@ struct FShadowPayload
 };
 const float BlockedAtUnknownDistance = 0.0, NotBlocked = -1.0;
 float GetTransmittance(FShadowPayload Payload) { return max(-Payload.BlockerDistance, 0.0); }
-// Whether most of the light arrives, for who counts rays.
+// Whether most of the light arrives.
 bool IsVisible(FShadowPayload Payload) { return Payload.BlockerDistance < -0.5; }
 #endif

@@ -1,8 +1,9 @@
 // Traces the queue of shadow rays; the ray-tracing pipeline and the ray-query path share it. A request's kind and index give origin,
 // direction, length, mask and flags. The includer defines
 //   float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint Mask)
-//     distance to a blocker; negative: the ray is unblocked
+//     distance to a blocker; negative: the ray is unblocked. What leaves no more than LeastTransmittance of the light blocks it
 //
+// HAS_TRANSMISSION: light shines through some surfaces. NO_SHARES: what leaves more than half of it blocks none.
 // SUN_RAYS, LOCAL_RAYS, MANY_LIGHTS: defined if somebody asks for rays to the sun, to local lights, to lights chosen of many.
 // WITH_PENUMBRA: also writes the width of the sun's penumbra, for the filter.
 // ONE_SAMPLE: see SamplesPerPixel.glsl.
@@ -19,6 +20,23 @@
 layout(push_constant, scalar) uniform FPush { FShadowQueueConstants Push; };
 
 float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint Mask);
+
+// A ray sees its light or does not. Behind what lets a share of light through it sees as often as that share says: the threshold is drawn.
+// Those of a pixel follow each other by the golden ratio, so that few frames have a good mean.
+float LeastTransmittance = 0.5;
+const float SoftBlockerDistance = 16.0; // metres, of what blocks by chance: the filter then takes the noise for a wide penumbra
+
+void DrawLeastTransmittance(uint Index, uint Number)
+{
+#if defined(HAS_TRANSMISSION) && !defined(NO_SHARES)
+	const float GoldenRatio = 0.61803399;
+	uint Frame = FViewRef(Push.Pass.View).Data.FrameIndex;
+	LeastTransmittance = fract(float(HashPcg(Index) >> 8u) / 16777216.0 + float((Frame + Number * 64u) & 0xffffu) * GoldenRatio);
+#endif
+}
+
+// Share: of the light that arrives where nothing solid is in the way.
+float PassOrBlock(float Share) { return Share > LeastTransmittance ? -1.0 : SoftBlockerDistance; }
 
 #include "SamplesPerPixel.glsl"
 
@@ -57,6 +75,7 @@ void TraceSun(uint Index, uint Casters, uint MoreSample)
 		vec3 Direction = -Scene.SunDirection;
 		if (Push.SunOneMinusCos > 0.0) { Direction = SampleSunDirection(Scene, SobolOwen2(FirstSample + Sample, Sequence.Seed)); }
 		if (!LeavesSurface(View, Point, Direction)) { continue; }
+		DrawLeastTransmittance(Index, MoreSample + Sample);
 		float BlockerDistance =
 			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Mask);
 		Seen += BlockerDistance < 0.0 ? 1u : 0u;

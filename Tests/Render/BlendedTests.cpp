@@ -1,4 +1,6 @@
 // Surfaces that cover a share of their place: their layers in the picture and in the reference, and what they leave of the sun.
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "Support/RenderFixture.h"
 #include "TransmissionFixture.h"
 
@@ -41,6 +43,12 @@ protected:
 		return bLoaded;
 	}
 	static FView LookAtWall() { return LookAt({0, 0, 10}, {0, 0, -10}, glm::radians(0.5f), 16, 16); }
+	static double MeanRed(const FImage& Image)
+	{
+		double Sum = 0.0;
+		for (size_t I = 0; I < Image.Pixels.size(); I += Image.Channels) { Sum += double(Image.Pixels[I]); }
+		return Sum * Image.Channels / double(Image.Pixels.size());
+	}
 	/// Porter and Duff 1984: each over what lies behind.
 	static double Compose(const std::vector<FPane>& Panes)
 	{
@@ -123,6 +131,48 @@ TEST_F(FBlendedTest, SolidPartsAreAsOpaqueAndClearPartsAsNone)
 	EXPECT_LT(FractionDiffering(Pictures[Solid], Pictures[Opaque], 0.05), 0.03) << "indirect light has other random numbers";
 	EXPECT_LT(FractionDiffering(Pictures[Clear], Pictures[None], 0.05), 0.03);
 	EXPECT_GT(FractionDiffering(Pictures[Opaque], Pictures[None], 0.05), 0.1) << "the board shows";
+}
+
+// Sun and lamp shine on a floor through a pane that covers 0.3 of its place.
+TEST_F(FBlendedTest, ShadowsAreOfWhatIsCovered)
+{
+	const auto Measure = [&](ESignal Signal, bool bPane) {
+		FTestScene Scene("Shadow");
+		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(0.5f)), 4.0f)}));
+		if (bPane) { Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddMaterial(MakeBlended({0.3f, 0.0f})), 4.0f, 2.0f)})); }
+		FHostLight Lamp;
+		Lamp.Color = glm::vec3(100);
+		Scene.AddLight(Lamp, glm::translate(glm::dmat4(1), glm::dvec3(0, 3, 0)));
+		if (!Load(Scene.Scene)) { return -1.0; }
+		SetSun(0.5, 4.0f, {0.0, -1.0, 0.0});
+		SetSky(glm::vec3(0));
+		FView View = LookAt({0, 1.5, 2}, {0, 0, 0}, glm::radians(20.0f), 64, 48);
+		FFrameCapture Capture;
+		Capture.Signals.Add(Signal);
+		FCapturedFrame Frame;
+		double Sum = 0.0;
+		constexpr int Frames = 48, WarmUp = 16;
+		for (int I = 0; I < Frames; ++I)
+		{
+			View.bCut = I == 0;
+			View.DeltaSeconds = 1.0f / 60.0f;
+			EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Frame));
+			Sum += I >= WarmUp ? MeanRed(Frame.Get(Signal)) / (Frames - WarmUp) : 0.0;
+		}
+		return Sum;
+	};
+	for (const char* Path : {"1", "2"})
+	{
+		SetVariable("r.RT.Shadow.Path", Path);
+		for (const ESignal Signal : {ESignal::SunShadow, ESignal::LocalDiffuse})
+		{
+			const double Share = Measure(Signal, true) / Measure(Signal, false);
+			PrintFigure(fmt::format("{} by path {}: {:.4f} of the light", GetSignalInfo(Signal).Pass, Path, Share));
+			EXPECT_NEAR(Share, 0.7, 0.01);
+		}
+	}
+	SetVariable("r.RT.Transmission.Shadows", "0");
+	EXPECT_NEAR(Measure(ESignal::SunShadow, true), 1.0, 0.001) << "what leaves more than half casts none";
 }
 
 TEST_F(FBlendedTest, ReferenceShadowsAreOfWhatIsCovered)

@@ -99,6 +99,26 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 	EXPECT_EQ(Data.LightEmissive, Data.Emissive) << "unless the material says otherwise";
 }
 
+TEST_F(FModuleSceneTest, BlendedMaterialsAreMarkedUnlessLightShinesThroughThem)
+{
+	FRTModuleMaterial Smoke;
+	Smoke.bBlended = true;
+	Smoke.BaseColor[3] = 0.25f;
+	Smoke.Emissive[0] = 100.0f;
+	FRTModuleMaterial Glass = Smoke;
+	Glass.Transmission = 1.0f;
+	ERTMaterialHandle Handles[2] = {};
+	ASSERT_OK(Renderer->AddMaterial(Smoke, &Handles[0]));
+	ASSERT_OK(Renderer->AddMaterial(Glass, &Handles[1]));
+	for (const ERTMaterialHandle Handle : Handles) { ASSERT_OK(AddObject(AddOpaqueMesh(), Handle)); }
+	const FSceneConstants Constants = ReadConstants(DescribeFrame());
+	const auto First = ReadEntry<FMaterialData>(Constants.Materials, 2), Second = ReadEntry<FMaterialData>(Constants.Materials, 3);
+	EXPECT_EQ(First.Flags, MATERIAL_BLENDED | MATERIAL_MASKED) << "masked where r.RT.Transmission is off";
+	EXPECT_EQ(First.EmissiveWeight, 0.0f) << "light sampling counts whole triangles";
+	EXPECT_EQ(Second.Flags, 0u);
+	EXPECT_GT(Second.EmissiveWeight, 0.0f);
+}
+
 TEST_F(FModuleSceneTest, MaterialsMayLightOtherwiseThanTheyLook)
 {
 	FRTModuleMaterial Material;

@@ -234,8 +234,8 @@ struct FRTModuleFrame
 	/// The engine lights by itself and reads FRTModuleOutputs::LightMask. ESignal::LocalDiffuse and LocalSpecular then hold only what is not
 	/// in the mask. It needs no input but Depth and Normals. A first frame with it has none of the three until shaders are compiled.
 	bool bLightMask = false;
-	/// The engine reads FRTModuleOutputs::Transmission, and leaves sections with FRTModuleMaterial::Transmission out of its G-buffer. Of
-	/// those with bBlended it draws what has an opacity of at least 0.998. It needs no input but Depth and Normals. A first frame with it
+	/// The engine reads FRTModuleOutputs::Transmission, and leaves sections with FRTModuleMaterial::Transmission out of its G-buffer. It
+	/// draws those with bBlended where their opacity is at least 0.998. It needs no input but Depth and Normals. A first frame with it
 	/// has none until shaders are compiled, and r.RT.Transmission may be off. The engine then draws these sections as it does without
 	/// Lantern.
 	bool bTransmission = false;

@@ -163,7 +163,7 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	Rays.Defines = MakeLocalDefines(Traced, Exact);
 	Rays.Defines.emplace_back("LOCAL_RAYS", "1");
 	if (!CVarCasters.GetOnRenderThread()) { Rays.Defines.emplace_back("ONE_CASTER", "1"); }
-	AddReceiverDefines(Query.Facts, Rays.Defines);
+	AddShadowRayDefines(Query.Facts, Rays.Defines);
 	Rays.Shaders = ShadowQueueShaders;
 	if (!Query.Facts.bMaskAlone) { Rays.Compute = {MakeShadeSource(Query.Facts, Exact)}; }
 	ListLocalRequestShaders(Query.Facts, Exact, Rays.Compute);

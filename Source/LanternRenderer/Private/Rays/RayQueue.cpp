@@ -20,6 +20,9 @@ TRTConsoleVariable<float> CVarQueuePerPixel("r.RT.Rays.QueuePerPixel", 2.0f,
     "their pixels keep the shadow of the frame before, and later queues are larger.",
     {0.0001, 64});
 
+TRTConsoleVariable<bool> CVarShares("r.RT.Transmission.Shadows", true,
+    "Rays to lights pass what light shines through as often as it leaves light. Shadows of glass and of blended surfaces are then as dark "
+    "as these are. Off: rays pass what leaves more than half.");
 TRTConsoleVariable<bool> CVarReceivers(
     "r.RT.Debug.Shadow.Receivers", true, "Planted fault. If off, shadow rays from characters meet what those from other surfaces do.");
 TRTConsoleVariable<int32_t> CVarPath(
@@ -77,8 +80,10 @@ uint32_t GetCasterRayFlags()
 	return Faces == 1 ? CullFrontFacing : Faces == 2 ? CullBackFacing : 0u;
 }
 
-void AddReceiverDefines(const FSceneFacts& Facts, FShaderDefines& Defines)
+void AddShadowRayDefines(const FSceneFacts& Facts, FShaderDefines& Defines)
 {
+	AddTransmissionDefine(Facts, Defines);
+	if (Facts.bTransmissive && !CVarShares.GetOnRenderThread()) { Defines.emplace_back("NO_SHARES", "1"); }
 	if (!Facts.bCharacters) { return; }
 	Defines.emplace_back("HAS_CHARACTERS", "1");
 	if (!CVarReceivers.GetOnRenderThread()) { Defines.emplace_back("ONE_RECEIVER", "1"); }

@@ -38,8 +38,8 @@ struct FSunRays
 	friend bool operator==(const FSunRays&, const FSunRays&) = default;
 };
 
-/// Adds what the queue's shaders need to know who casts on what a pixel shows.
-void AddReceiverDefines(const FSceneFacts& Facts, FShaderDefines& Defines);
+/// Adds what the queue's shaders need to know who casts on what a pixel shows, and what lets a share of light through.
+void AddShadowRayDefines(const FSceneFacts& Facts, FShaderDefines& Defines);
 /// Returns gl_RayFlags… of all shadow rays, by r.RT.Shadow.CasterFaces.
 uint32_t GetCasterRayFlags();
 

@@ -173,7 +173,7 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	if (!Query.Facts.bSun || !IsRayTracingEnabled() || !CVarShadow.GetOnRenderThread()) { return Rays; }
 	Rays.Path = ChooseQueuePath(Query, "sun shadows are");
 	Rays.Defines.emplace_back("SUN_RAYS", "1");
-	AddReceiverDefines(Query.Facts, Rays.Defines);
+	AddShadowRayDefines(Query.Facts, Rays.Defines);
 	// Without a loop nothing but the pixel lives across the trace.
 	if (CVarSamples.GetOnRenderThread() == 1 || !CVarSoft.GetOnRenderThread()) { Rays.Defines.emplace_back("ONE_SAMPLE", "1"); }
 	if (MeasuresPenumbra()) { Rays.Defines.emplace_back("WITH_PENUMBRA", "1"); }
