@@ -42,7 +42,7 @@ void main()
 	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
 	vec3 Ng = NormalizeOr(cross(dFdx(InRelative), dFdy(InRelative)), Surface.Normal);
 #ifdef MASKED
-	bool bLayer = (Material.Flags & MATERIAL_BLENDED) != 0u && (Section.Flags & SECTION_TRANSMISSIVE) != 0u;
+	bool bLayer = Push.bLayers != 0u && (Section.Flags & SECTION_TRANSMISSIVE) != 0u && (Material.Flags & MATERIAL_BLENDED) != 0u;
 	if (Surface.Opacity < (bLayer ? LeastSolidOpacity : Material.AlphaCutoff)) { discard; }
 #endif
 	// Turns both normals towards the camera, as the hit shaders do.

@@ -7,16 +7,19 @@
 #define EMITTER_SHAPES
 #include "LocalPoint.glsl"
 
-// Number: of the pixel's rays.
-bool SeesLight(uint Index, uint Light, uint Number)
+const uint FirstLocalNumber = 64u; // behind those of the sun
+
+// Number: of the pixel's rays to local lights. bFiltered: what it brings counts as chance. What shines from one point does not, unless it was
+// chosen of many (IsCertain in Shade.comp).
+bool SeesLight(uint Index, uint Light, uint Number, bool bFiltered)
 {
-	DrawLeastTransmittance(Index, Number + 1u);
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, LoadDepth(Push.Depth, ivec2(Pixel)));
 	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 	if (!ReachesLight(View, Point, Sample)) { return false; }
+	DrawLeastTransmittance(Index, FirstLocalNumber + Number, bFiltered);
 	vec3 Origin = RasterRayOrigin(Scene, View, Point.Surface), Direction = Sample.Direction;
 	float Length = LightRayLength(Sample, Point.P, Scene.ObjectReach);
 	if (Sample.Distance < LightInfinity)
@@ -35,7 +38,8 @@ void TraceLocal(uint Index, uint Slot)
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uvec2 Tile = uvec2(Index % View.Width, Index / View.Width) / TILE_SIZE;
 	uint Light = FTileLightsRef(Push.TileLights).Data[TileIndex(View, Tile)].Lights[Slot];
-	uint Answer = (1u << (ANSWER_LOCAL_TRACED + Slot)) | (SeesLight(Index, Light, Slot) ? 1u << (ANSWER_LOCAL_SEEN + Slot) : 0u);
+	bool bExtent = HasExtent(FLightRef(FSceneRef(Push.Pass.Scene).Data.Lights).Data[Light]);
+	uint Answer = (1u << (ANSWER_LOCAL_TRACED + Slot)) | (SeesLight(Index, Light, Slot, bExtent) ? 1u << (ANSWER_LOCAL_SEEN + Slot) : 0u);
 	atomicOr(FAnswerRef(Push.Answers).Data[Index], Answer);
 }
 
@@ -44,7 +48,7 @@ void TraceChosen(uint Index, uint Which)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Light = FLightChoiceRef(Push.Choices).Data[ChoiceIndex(View, Index, Which)].Light;
-	uint Answer = (1u << ChosenTracedBit(Which)) | (SeesLight(Index, Light, Which) ? 1u << ChosenSeenBit(Which) : 0u);
+	uint Answer = (1u << ChosenTracedBit(Which)) | (SeesLight(Index, Light, Which, true) ? 1u << ChosenSeenBit(Which) : 0u);
 	atomicOr(FAnswerRef(Push.Answers).Data[Index], Answer);
 }
 #endif

@@ -1,12 +1,23 @@
 // What a surface that light shines through leaves of a ray to a light, which goes straight on. The any-hit shader of such rays and ray
-// queries share it. Materials of other programs count by their standard parameters.
+// queries share it. Transmission is that of standard parameters, and coverage that of the program.
 #ifndef LANTERN_SEE_THROUGH_GLSL
 #define LANTERN_SEE_THROUGH_GLSL
 
-#include "Standard.glsl"
+#include "AlphaTest.glsl"
 #include "../Library/Brdf.glsl"
 
-// Returns −ln of the share, by luminance. Direction: of the ray, object space, of any length.
+const float SolidDepth = 1.0e30; // of what blended surfaces cover wholly, which blocks as any surface does
+
+float CoverageOf(FMaterialData Material, FMaterialInputs Inputs)
+{
+#ifdef MATERIAL_STANDARD_OPACITY
+	return EvaluateOpacity(Material, Inputs);
+#else
+	return EvaluateMaterial(Material, Inputs, 0u).Opacity;
+#endif
+}
+
+// Returns −ln of the share, by luminance, or SolidDepth. Direction: of the ray, object space, of any length.
 float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 Barycentrics, vec3 Direction)
 {
 	const float Least = 1.0e-4;
@@ -15,7 +26,11 @@ float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primiti
 	FetchPositions(Section, Primitive, P0, P1, P2);
 	vec3 Normal = cross(P1 - P0, P2 - P0);
 	FMaterialInputs Inputs = FetchMaterialInputs(Section, Primitive, Barycentrics);
-	if ((Material.Flags & MATERIAL_BLENDED) != 0u) { return -log(max(1.0 - EvaluateOpacity(Material, Inputs), Least)); }
+	if ((Material.Flags & MATERIAL_BLENDED) != 0u) 
+	{
+		float Coverage = CoverageOf(Material, Inputs);
+		return Coverage < LeastSolidOpacity ? -log(1.0 - max(Coverage, 0.0)) : SolidDepth;
+	}
 	float Cosine = abs(dot(Normal, Direction)) * inversesqrt(max(dot(Normal, Normal) * dot(Direction, Direction), 1.0e-30));
 	float Ratio = (Material.Ior - 1.0) / (Material.Ior + 1.0), R = Material.Specular * mix(Ratio * Ratio, 1.0, SchlickWeight(Cosine));
 	if ((Material.Flags & MATERIAL_SOLID) == 0u) { R = SheetReflectance(R); }

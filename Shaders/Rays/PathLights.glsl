@@ -30,11 +30,12 @@ vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Directi
 {
 #ifdef TINTED_SHADOWS
 	vec3 T = vec3(1.0);
-	for (uint Layer = 0u; Layer < MostPassages; ++Layer)
+	for (uint Layer = 0u; Layer < MostPassages;)
 	{
 		FMaterialHit Hit = TraceMaterial(Scene, Casters, Origin, Direction, Distance, SHOWS_NOTHING);
 		if (Hit.Distance < 0.0) { return T; }
 		if (Hit.Transmission <= 0.0) { break; }
+		Layer += IsClear(Hit) ? 0u : 1u;
 		T *= StraightTransmittance(Hit, Direction, Hit.Distance);
 		if (T == vec3(0.0)) { break; }
 		Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);

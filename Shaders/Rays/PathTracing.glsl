@@ -170,6 +170,9 @@ bool TakePassage(FSceneConstants Scene, bool bShown, inout FMaterialHit Hit, ino
 {
 	if (Hit.Transmission <= 0.0) { return false; }
 	vec4 U = NextRandom4(Random);
+#ifdef LIKELIEST_PASSAGE
+	U.w = 0.5;
+#endif
 	if (U.w >= InterfaceShare(Hit)) { return false; }
 	bool bInside = (Hit.Flags & HIT_INSIDE) != 0u;
 	// A path that has begun in the volume did not know of it.
@@ -179,7 +182,7 @@ bool TakePassage(FSceneConstants Scene, bool bShown, inout FMaterialHit Hit, ino
 	U.z = 0.5;
 #endif
 	FPassage Passage = SamplePassage(Hit, Basis, -Direction * Basis, U.xyz);
-	Throughput *= Passages.Left-- > 0u ? Passage.Weight : vec3(0.0);
+	if (!IsClear(Hit)) { Throughput *= Passages.Left-- > 0u ? Passage.Weight : vec3(0.0); }
 	if (Throughput == vec3(0.0)) { return true; }
 	Passages.Length += Hit.Distance;
 	if (!Passage.bThrough)
@@ -265,9 +268,13 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #endif
 		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf, LENGTH_PASSED);
 #ifdef HAS_TRANSMISSION
+		bool bBlended = IsBlended(Hit);
 		if (TakePassage(Scene, bShown, Hit, Passages, Origin, Direction, Throughput, Pdf, Random))
 		{
 			if (Throughput == vec3(0.0)) { return Radiance; }
+#ifdef KEEPS_HIT
+			if (bBlended && bMirrored) { KeepHit(Hit, Direction, Throughput, KeptHit.Distance); } // what is seen beside what it covers
+#endif
 			--Bounce; // no scattering event
 			continue;
 		}

@@ -52,9 +52,10 @@ void TraceRayQuery(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, ve
 #ifdef HAS_TRANSMISSION
 		if (bToLight && (Section.Flags & SECTION_TRANSMISSIVE) != 0u)
 		{
-			RayDepth += SeeThroughDepth(FMaterialRef(Scene.Materials), Section, Primitive, rayQueryGetIntersectionBarycentricsEXT(RayQuery, false),
-			                            rayQueryGetIntersectionObjectRayDirectionEXT(RayQuery, false));
-			continue;
+			float Depth = SeeThroughDepth(FMaterialRef(Scene.Materials), Section, Primitive, rayQueryGetIntersectionBarycentricsEXT(RayQuery, false),
+			                              rayQueryGetIntersectionObjectRayDirectionEXT(RayQuery, false));
+			RayDepth += Depth;
+			if (Depth < SolidDepth) { continue; }
 		}
 #endif
 		// Geometry that another object alpha-tests is a candidate here as well, without being masked.

@@ -21,17 +21,18 @@ layout(push_constant, scalar) uniform FPush { FShadowQueueConstants Push; };
 
 float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint Mask);
 
-// A ray sees its light or does not. Behind what lets a share of light through it sees as often as that share says: the threshold is drawn.
-// Those of a pixel follow each other by the golden ratio, so that few frames have a good mean.
+// A ray sees its light or does not. Behind what lets a share of light through it sees as often as that share says, where a filter follows:
+// the threshold is drawn. Those of a pixel follow each other by the golden ratio, so that few frames have a good mean.
 float LeastTransmittance = 0.5;
 const float SoftBlockerDistance = 16.0; // metres, of what blocks by chance: the filter then takes the noise for a wide penumbra
 
-void DrawLeastTransmittance(uint Index, uint Number)
+// Number: of the pixel's rays in a frame. bFiltered: else what leaves more than half passes whole, which has no noise.
+void DrawLeastTransmittance(uint Index, uint Number, bool bFiltered)
 {
 #if defined(HAS_TRANSMISSION) && !defined(NO_SHARES)
-	const float GoldenRatio = 0.61803399;
-	uint Frame = FViewRef(Push.Pass.View).Data.FrameIndex;
-	LeastTransmittance = fract(float(HashPcg(Index) >> 8u) / 16777216.0 + float((Frame + Number * 64u) & 0xffffu) * GoldenRatio);
+	const uint GoldenRatio = 0x9e3779b9u; // of 2^32
+	uint Start = HashPcg(Index ^ HashPcg(Number));
+	LeastTransmittance = bFiltered ? float((Start + FViewRef(Push.Pass.View).Data.FrameIndex * GoldenRatio) >> 8u) / 16777216.0 : 0.5;
 #endif
 }
 
@@ -75,7 +76,9 @@ void TraceSun(uint Index, uint Casters, uint MoreSample)
 		vec3 Direction = -Scene.SunDirection;
 		if (Push.SunOneMinusCos > 0.0) { Direction = SampleSunDirection(Scene, SobolOwen2(FirstSample + Sample, Sequence.Seed)); }
 		if (!LeavesSurface(View, Point, Direction)) { continue; }
-		DrawLeastTransmittance(Index, MoreSample + Sample);
+#ifdef WITH_PENUMBRA
+		DrawLeastTransmittance(Index, bMore ? SamplesPerPixel + MoreSample : Sample, Push.SunOneMinusCos > 0.0);
+#endif
 		float BlockerDistance =
 			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Mask);
 		Seen += BlockerDistance < 0.0 ? 1u : 0u;

@@ -10,6 +10,9 @@ const uint MostPassages = 16u; // surfaces of this kind on a path; one that is c
 // Whether the hit is one of a surface that covers a share of its place, and leaves the rest as it is.
 bool IsBlended(FMaterialHit Hit) { return (Hit.Flags & HIT_BLENDED) != 0u; }
 
+// Whether it covers nothing there.
+bool IsClear(FMaterialHit Hit) { return IsBlended(Hit) && Hit.Transmission > LeastSolidOpacity; }
+
 // The share of light that meets a mere interface, and neither base colour nor metal; of a blended surface, that meets nothing.
 float InterfaceShare(FMaterialHit Hit) { return IsBlended(Hit) ? Hit.Transmission : Hit.Transmission * (1.0 - Hit.Metallic); }
 

@@ -25,7 +25,11 @@ FMaterialHit TraceCamera(FSceneConstants Scene, inout vec3 Origin, vec3 Directio
 	for (uint Layer = 0; Layer < 64u; ++Layer)
 	{
 		Hit = TraceMaterial(Scene, Origin, Direction);
-		if (Hit.Distance < 0.0 || (Hit.Flags & HIT_CULLED_SIDE) == 0u) { break; }
+		bool bPasses = (Hit.Flags & HIT_CULLED_SIDE) != 0u;
+#if defined(SIGNAL) && defined(HAS_TRANSMISSION)
+		bPasses = bPasses || (IsBlended(Hit) && Hit.Transmission > 0.5); // a signal is of one surface
+#endif
+		if (Hit.Distance < 0.0 || !bPasses) { break; }
 		Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
 	}
 	return Hit;
@@ -82,7 +86,7 @@ vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel,
 #ifdef HAS_TRANSMISSION
 	vec3 Start = View.CameraPosition + CameraRayStart(View, vec2(Pixel) + 0.5), Direction = CameraRay(View, vec2(Pixel) + 0.5);
 	float Left = Infinity;
-	if (Depth > 0.0) { Left = DistanceBefore(DistanceFromDepth(View, Depth) / dot(Direction, View.CameraForward)); }
+	if (Depth > 0.0) { Left = DistanceOfLayers(DistanceFromDepth(View, Depth) / dot(Direction, View.CameraForward)); }
 	FMaterialHit Layer;
 	if (FindLayer(Scene, Start, Direction, Left, Layer))
 	{

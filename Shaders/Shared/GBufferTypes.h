@@ -11,7 +11,7 @@ struct FGBufferConstants
 	FPassConstants Pass;
 	FAddress Objects; // uint[]: object index of each instance of the draw
 	uint Section;     // index of the section within each of these objects
-	uint Pad;
+	uint bLayers;     // rays show what light shines through, and blended surfaces where they are not solid
 };
 LANTERN_ASSERT_SIZE(FGBufferConstants, 32);
 

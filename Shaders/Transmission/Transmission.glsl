@@ -164,7 +164,7 @@ void ShowLayers(uvec2 Pixel)
 	vec2 At = vec2(Pixel) + 0.5;
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	FCameraRay Ray = FCameraRay(View.CameraPosition + CameraRayStart(View, At), CameraRay(View, At), Infinity, 0.0, At / vec2(View.Width, View.Height));
-	if (Depth > 0.0) { Ray.Left = DistanceBefore(DistanceFromDepth(View, Depth) / dot(Ray.Direction, View.CameraForward)); }
+	if (Depth > 0.0) { Ray.Left = DistanceOfLayers(DistanceFromDepth(View, Depth) / dot(Ray.Direction, View.CameraForward)); }
 #ifdef RADIANCE_CELLS
 	if (Push.RadianceCells != FAddress(0) && VotesInTurn(View, Pixel))
 	{

@@ -116,7 +116,7 @@ TEST_F(FBlendedTest, SolidPartsAreAsOpaqueAndClearPartsAsNone)
 		if (Kind == Opaque) { Board.AlphaMode = EAlphaMode::Opaque; }
 		if (Kind != None) { Scene.AddNode(Scene.AddMesh({MakeWall(Scene.AddMaterial(Board), 1.0f, -1.0f)})); }
 		ASSERT_TRUE(Load(Scene.Scene));
-		SetSun(0.0, 4.0f, {-0.5, -1.0, -0.7});
+		SetSun(2.0, 4.0f, {-0.5, -1.0, -0.7});
 		SetSky(glm::vec3(0.3f));
 		SetVariable("r.RT.GI", "3");
 		SetVariable("r.RT.GI.Cells.Capacity", "65536");
@@ -136,12 +136,14 @@ TEST_F(FBlendedTest, SolidPartsAreAsOpaqueAndClearPartsAsNone)
 // Sun and lamp shine on a floor through a pane that covers 0.3 of its place.
 TEST_F(FBlendedTest, ShadowsAreOfWhatIsCovered)
 {
-	const auto Measure = [&](ESignal Signal, bool bPane) {
+	const auto Measure = [&](ESignal Signal, bool bPane, uint32_t Light = LIGHT_SPHERE) {
 		FTestScene Scene("Shadow");
 		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(0.5f)), 4.0f)}));
 		if (bPane) { Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddMaterial(MakeBlended({0.3f, 0.0f})), 4.0f, 2.0f)})); }
 		FHostLight Lamp;
-		Lamp.Color = glm::vec3(100);
+		Lamp.Type = Light;
+		Lamp.Size = glm::vec2(0.1f);
+		Lamp.Color = glm::vec3(1000);
 		Scene.AddLight(Lamp, glm::translate(glm::dmat4(1), glm::dvec3(0, 3, 0)));
 		if (!Load(Scene.Scene)) { return -1.0; }
 		SetSun(0.5, 4.0f, {0.0, -1.0, 0.0});
@@ -161,6 +163,7 @@ TEST_F(FBlendedTest, ShadowsAreOfWhatIsCovered)
 		}
 		return Sum;
 	};
+	SetVariable("r.RT.Shadow.Denoise", "1");
 	for (const char* Path : {"1", "2"})
 	{
 		SetVariable("r.RT.Shadow.Path", Path);
@@ -171,8 +174,85 @@ TEST_F(FBlendedTest, ShadowsAreOfWhatIsCovered)
 			EXPECT_NEAR(Share, 0.7, 0.01);
 		}
 	}
+	// No filter follows what shines from one point.
+	const double OfPoint = Measure(ESignal::LocalDiffuse, true, LIGHT_POINT) / Measure(ESignal::LocalDiffuse, false, LIGHT_POINT);
+	EXPECT_NEAR(OfPoint, 1.0, 0.005) << "rays through the edge of two triangles meet both";
 	SetVariable("r.RT.Transmission.Shadows", "0");
 	EXPECT_NEAR(Measure(ESignal::SunShadow, true), 1.0, 0.001) << "what leaves more than half casts none";
+}
+
+// Hard sun shadows have no filter behind them, and no noise.
+TEST_F(FBlendedTest, HardShadowsHaveNoNoise)
+{
+	FTestScene Scene("Shadow");
+	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(0.5f)), 4.0f)}));
+	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddMaterial(MakeBlended({0.3f, 0.0f})), 4.0f, 2.0f)}));
+	ASSERT_TRUE(Load(Scene.Scene));
+	SetSky(glm::vec3(0));
+	for (const bool bSoft : {false, true})
+	{
+		SetSun(bSoft ? 0.5 : 0.0, 4.0f, {0.0, -1.0, 0.0});
+		SetVariable("r.RT.Shadow.Denoise", bSoft ? "0" : "1");
+		const FImage Shadow = RenderSignal(ESignal::SunShadow, LookAt({0, 1.5, 2}, {0, 0, 0}, glm::radians(20.0f), 32, 24));
+		EXPECT_GT(MeanRed(Shadow), 0.99) << "but for rays through the edge of two triangles, which meet both";
+	}
+}
+
+// The program leaves 0.7 of what the standard parameters cover wholly.
+TEST_F(FBlendedTest, ShadowsAreOfTheProgramsOpacity)
+{
+	SetVariable("r.RT.Shadow.Denoise", "1");
+	SetVariable("r.RT.Shadow.Path", "1"); // ray queries know the standard program alone
+	FTestScene Scene("Shadow");
+	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(0.5f)), 4.0f)}));
+	const int32_t Pane = Scene.AddMaterial(MakeBlended({1.0f, 0.0f}));
+	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Pane, 4.0f, 2.0f)}));
+	ASSERT_TRUE(Load(Scene.Scene));
+	SetSun(0.5, 4.0f, {0.0, -1.0, 0.0});
+	SetSky(glm::vec3(0));
+	const uint32_t Program = GetEngine().GetRenderer().GetPrograms().Add({.Name = "Thin", .Text = R"(
+#include "Standard.glsl"
+FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Override)
+{
+	FMaterialSurface S = EvaluateStandard(M, I, Override);
+	S.Opacity = 0.3;
+	return S;
+}
+)"});
+	GetScene().GetScene().SetMaterialProgram(static_cast<uint32_t>(Pane), Program);
+	const FView View = LookAt({0, 1.5, 2}, {0, 0, 0}, glm::radians(20.0f), 32, 24);
+	EXPECT_NEAR(MeanRed(RenderSignal(ESignal::SunShadow, View, 48)), 0.7, 0.02);
+}
+
+// A decal lies so near to its wall that depth is not told apart, and cards of leaves are clear for the most part.
+TEST_F(FBlendedTest, DecalsAndClearCardsShow)
+{
+	FTestScene Scene("Decal");
+	Scene.AddNode(Scene.AddMesh({MakeWall(Scene.AddLambert(glm::vec3(0), glm::vec3(1)), 4.0f, -10.0f)}));
+	Scene.AddNode(Scene.AddMesh({MakeWall(Scene.AddMaterial(MakeBlended({0.5f, 3.0f})), 4.0f, -9.9995f)}));
+	const int32_t Clear = Scene.AddMaterial(MakeBlended({0.0f, 5.0f}));
+	for (int I = 0; I < 20; ++I) { Scene.AddNode(Scene.AddMesh({MakeWall(Clear, 4.0f, -0.1f * float(I))})); }
+	ASSERT_TRUE(Load(Scene.Scene));
+	SetSky(glm::vec3(0));
+	for (const char* Path : {"1", "2"})
+	{
+		SetVariable("r.RT.Transmission.Path", Path);
+		EXPECT_NEAR(MeanGreen(RenderLighting(LookAtWall())), 2.0, 0.02) << "path " << Path;
+	}
+	ExpectClosedForm("decal behind clear cards", EstimateMean(LookAtWall(), 1024, 1), 2.0, 0.005);
+}
+
+TEST_F(FBlendedTest, TransmissionCountsAlone)
+{
+	FHostMaterial Glass = MakeGlass();
+	Glass.AlphaMode = EAlphaMode::Blend;
+	Glass.BaseColor.a = 0.2f;
+	FTestScene Scene("Glass");
+	Scene.AddNode(Scene.AddMesh({MakeWall(Scene.AddLambert(glm::vec3(0), glm::vec3(1)), 4.0f, -10.0f)}));
+	Scene.AddNode(Scene.AddMesh({MakeWall(Scene.AddMaterial(Glass), 4.0f, 0.0f)}));
+	ASSERT_TRUE(Load(Scene.Scene));
+	SetSky(glm::vec3(0));
+	EXPECT_NEAR(MeanGreen(RenderLighting(LookAtWall())), (1.0 - GlassR) / (1.0 + GlassR), 0.003);
 }
 
 TEST_F(FBlendedTest, ReferenceShadowsAreOfWhatIsCovered)

@@ -94,7 +94,6 @@ TEST_F(FHitProgramsTest, LightIsOfStandardParametersUnlessAskedOtherwise)
 	EXPECT_LT(Sums[1].z / Sums[1].x, 0.35) << "its program paints it red; the rest is light of the floor";
 }
 
-// The fault is planted by asking for what lights alone: hits that mirrors show would then be grey as well.
 TEST_F(FHitProgramsTest, MirrorsShowPrograms)
 {
 	double Shares[2];

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "GBufferTypes.h"
+#include "HostMaterials.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
 
@@ -58,13 +59,6 @@ const FRasterSource& FGBufferPass::GetSource(const FPipelineKey& Key)
 	FRasterSource& Source = Sources[Key];
 	if (Source.Key.empty() || Source.Revision != Renderer.GetPrograms().GetRevision(Key.Program)) { Source = MakeSource(Key); }
 	return Source;
-}
-
-/// T: a batch or its kind.
-template <class T>
-bool IsTested(const T& Of, const FSceneFacts& Facts)
-{
-	return Of.bMasked && (Facts.bMasked || (Of.bBlended && Facts.bTransmissive));
 }
 
 /// Of all that the scene may draw, in view or not: what comes into view is then there.
@@ -181,7 +175,7 @@ bool FGBufferPass::ChooseMotion(const FFrameContext& Context, const FHostScene& 
 	return bWanted;
 }
 
-void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion, bool bTransmissive)
+void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion, bool bLayers)
 {
 	if (FRTStatus S = Draws.Make(Scene, Renderer.GetUploads(), Frame.View, MinPixels); !S) { return Frame.Fail(S); }
 	IRTPipeline* Bound = nullptr;
@@ -189,13 +183,13 @@ void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHost
 	for (const FDrawList::FRun& Run : Draws.GetRuns())
 	{
 		const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Run.Batch];
-		if (Batch.bTransmissive && !Batch.bBlended && !bTransmissive) { continue; }
+		if (bLayers && Batch.bTransmissive && !Batch.bBlended) { continue; }
 		const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : Run.bMirrored ? ERTCull::Front : ERTCull::Back;
 		IRTPipeline* const Pipeline = Pipelines.at({Batch.Program, IsTested(Batch, Frame.Facts), Cull, bWithMotion});
 		if (!Pipeline) { continue; }
 		if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
 		if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }
-		const FGBufferConstants Constants{Frame.Pass, Run.Objects, Batch.Section, 0};
+		const FGBufferConstants Constants{Frame.Pass, Run.Objects, Batch.Section, bLayers ? 1u : 0u};
 		List.PushConstants(&Constants, sizeof(Constants));
 		List.DrawIndexed(Batch.IndexCount, Run.Count, Batch.FirstIndex, 0);
 	}
@@ -220,7 +214,7 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 	Out.Motion = Targets[4];
 	Out.bNamesObjects = true;
 	FFrameContext* const Frame = &Context;
-	const bool bTransmissive = !IsTransmissionShown(Context);
+	const bool bLayers = IsTransmissionShown(Context);
 	Graph.AddPass("GBuffer", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (uint32_t I = 0; I < ColorCount; ++I) { Builder.Write(Targets[I], ERTAccess::RenderTarget); }
 		Builder.Write(Out.Depth, ERTAccess::DepthWrite);
@@ -239,7 +233,7 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 			Desc.Width = Frame->Width;
 			Desc.Height = Frame->Height;
 			Pass.Commands().BeginRasterPass(Desc);
-			RecordDraws(*Frame, Pass.Commands(), Scene, bWithMotion, bTransmissive);
+			RecordDraws(*Frame, Pass.Commands(), Scene, bWithMotion, bLayers);
 			Pass.Commands().EndRasterPass();
 		};
 	});

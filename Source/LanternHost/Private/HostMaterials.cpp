@@ -110,7 +110,7 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 		Data.Specular = Source.Specular;
 		Data.Transmission = Source.Transmission;
 		Data.Absorption = Source.Absorption;
-		Data.Flags = (Source.AlphaMode != EAlphaMode::Opaque ? MATERIAL_MASKED : 0u) | (Source.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |
+		Data.Flags = (IsMasked(Source) ? MATERIAL_MASKED : 0u) | (Source.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |
 		             (Source.bSolid ? MATERIAL_SOLID : 0u) | (IsBlended(Source) ? MATERIAL_BLENDED : 0u);
 		glm::vec3 MeanEmission = Data.LightEmissive;
 		for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot)

@@ -3,6 +3,7 @@
 
 #include "LanternHost/SceneDescription.h"
 #include "LanternRHI/RTTypes.h"
+#include "LanternScene/Scene/Scene.h"
 
 namespace Lantern
 {
@@ -15,6 +16,16 @@ inline bool IsTransmissive(const FHostMaterial& Material)
 {
 	if (IsBlended(Material)) { return true; }
 	return Material.Transmission > 0.0f && (Material.Metallic < 1.0f || Material.Slots[TEXTURE_METALLIC_ROUGHNESS].Texture >= 0);
+}
+
+/// Transmission is not cut.
+inline bool IsMasked(const FHostMaterial& Material) { return Material.AlphaMode == EAlphaMode::Mask || IsBlended(Material); }
+
+/// Whether the raster tests the alpha of a batch, or of a kind of batches.
+template <class T>
+bool IsTested(const T& Of, const FSceneFacts& Facts)
+{
+	return Of.bMasked && (Facts.bMasked || (Of.bBlended && Facts.bTransmissive));
 }
 
 /// Without transmission (r.RT.Transmission), a blended surface is cut at half its opacity.

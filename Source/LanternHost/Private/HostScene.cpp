@@ -191,9 +191,8 @@ uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Mat
 	{
 		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
 		const FHostMaterial& Material = Description.Materials[Materials[Section]];
-		const FDrawBatch Batch{Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Section,
-		    Material.AlphaMode != EAlphaMode::Opaque, Material.bDoubleSided, IsBlended(Material), IsTransmissive(Material),
-		    Scene.GetMaterialProgram(Materials[Section])};
+		const FDrawBatch Batch{Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Section, IsMasked(Material),
+		    Material.bDoubleSided, IsBlended(Material), IsTransmissive(Material), Scene.GetMaterialProgram(Materials[Section])};
 		std::vector<uint32_t>& OfMesh = BatchesOfMesh[Mesh];
 		const auto Found = std::find_if(OfMesh.begin(), OfMesh.end(), [&](uint32_t Index) { return Batches[Index] == Batch; });
 		if (Found != OfMesh.end())

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "HostMaterials.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
 #include "ShadowMapTypes.h"
@@ -99,12 +100,12 @@ IRTPipeline* FShadowMapPass::Ask(const FFrameContext& Context, uint32_t Program,
 }
 
 /// Program and alpha test of all pipelines. Solid surfaces need no material program.
-std::set<FShadowMapPass::FPipelineKey> FShadowMapPass::ListKeys(const FHostScene& Scene, bool bAlphaTest)
+std::set<FShadowMapPass::FPipelineKey> FShadowMapPass::ListKeys(const FHostScene& Scene, const FSceneFacts& Facts)
 {
 	std::set<FPipelineKey> Keys;
 	for (const FHostScene::FDrawKind& Kind : Scene.GetDrawKinds())
 	{
-		const bool bMasked = Kind.bMasked && bAlphaTest;
+		const bool bMasked = IsTested(Kind, Facts);
 		Keys.insert({bMasked ? Kind.Program : StandardProgram, bMasked});
 	}
 	return Keys;
@@ -114,7 +115,7 @@ FRTStatus FShadowMapPass::Precache(FHostScene& Scene)
 {
 	if (!IsOn() || !Scene.GetScene().RefreshFacts().bSun) { return FRTStatus::Success(); }
 	FRTStatus Status;
-	for (const auto& [Program, bMasked] : ListKeys(Scene, Scene.GetScene().GetFacts().bMasked))
+	for (const auto& [Program, bMasked] : ListKeys(Scene, Scene.GetScene().GetFacts()))
 	{
 		IRTPipeline* Unused = nullptr;
 		const FRTStatus Made = Renderer.GetPipelines().Get(MakeSource(Renderer.GetPrograms(), Program, bMasked), Unused);
@@ -128,7 +129,7 @@ bool FShadowMapPass::FindPipelines(const FFrameContext& Context, const FHostScen
 {
 	bool bComplete = true;
 	Pipelines.clear();
-	for (const FPipelineKey& Key : ListKeys(Scene, Context.Facts.bMasked))
+	for (const FPipelineKey& Key : ListKeys(Scene, Context.Facts))
 	{
 		Pipelines[Key] = Ask(Context, Key.first, Key.second);
 		bComplete &= Pipelines[Key] != nullptr;
@@ -195,8 +196,9 @@ void FShadowMapPass::AddCascade(FFrameContext& Context, FHostScene& Scene, const
 			for (const FDrawList::FRun& Run : Draws.GetRuns())
 			{
 				const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Run.Batch];
-				if (Batch.bTransmissive && Frame->Facts.bTransmissive) { continue; } // as rays have it
-				const bool bMasked = Batch.bMasked && Frame->Facts.bMasked;
+				// A map knows no shares. Blended surfaces are cut at half, and glass casts nothing.
+				if (Batch.bTransmissive && !Batch.bBlended && Frame->Facts.bTransmissive) { continue; }
+				const bool bMasked = IsTested(Batch, Frame->Facts);
 				List.SetPipeline(Pipelines.at({bMasked ? Batch.Program : StandardProgram, bMasked}));
 				List.SetIndexBuffer(Batch.Indices, 0, ERTIndexType::UInt32);
 				const FShadowMapConstants C{Frame->Pass, Run.Objects, Batch.Section, 0, {ToClip[0], ToClip[1], ToClip[2]}};

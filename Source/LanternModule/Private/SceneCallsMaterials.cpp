@@ -33,6 +33,12 @@ FMaterialTextures HoldTextures(const FRTModuleMaterial& Material)
 
 } // namespace
 
+namespace
+{
+/// Whether rays may pass parts of it, which a section must allow.
+bool IsCut(const FRTModuleMaterial& Material) { return Material.bMasked || (Material.bBlended && Material.Transmission <= 0.0f); }
+} // namespace
+
 FRTStatus FSceneCalls::AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out)
 {
 	if (Out == nullptr) { return RefuseNull("AddMaterial", "Out"); }
@@ -40,7 +46,7 @@ FRTStatus FSceneCalls::AddMaterial(const FRTModuleMaterial& Material, ERTMateria
 	if (const FRTStatus Status = CheckMaterial(Material); !Status) { return Status; }
 	FMaterial Added;
 	Added.Textures = HoldTextures(Material);
-	Added.bMasked = Material.bMasked;
+	Added.bMasked = IsCut(Material);
 	auto Data = std::make_unique<FMaterialData>(PackMaterial(Material));
 	std::lock_guard Lock(Mutex);
 	*Out = Materials.Add(std::move(Added));
@@ -62,11 +68,11 @@ FRTStatus FSceneCalls::SetMaterial(ERTMaterialHandle Handle, const FRTModuleMate
 	FMaterial* const Mine = Materials.Find(Handle);
 	if (Mine == nullptr) { return RefuseHandle("SetMaterial", "material"); }
 	FRTStatus Status = CheckMaterial(Material);
-	if (Status && Material.bMasked) { Status = CheckUsers(*Mine); }
+	if (Status && IsCut(Material)) { Status = CheckUsers(*Mine); }
 	if (!Status) { return Status; }
 	FMaterialCommand Command{Materials.GetSlot(Handle), std::make_unique<FMaterialData>(PackMaterial(Material)), {}};
 	Command.Old = std::exchange(Mine->Textures, HoldTextures(Material));
-	Mine->bMasked = Material.bMasked;
+	Mine->bMasked = IsCut(Material);
 	AddUpdate(std::move(Command), 0, Mine->Ticket);
 	return Status;
 }

@@ -15,8 +15,8 @@ namespace
 TRTConsoleVariable<bool> CVarAlphaTest(
     "r.RT.AlphaTest", true, "Alpha tests of masked materials, in raster and under rays. Off: masked surfaces are solid.");
 TRTConsoleVariable<bool> CVarTransmission("r.RT.Transmission", true,
-    "Light shines through materials that say so (glTF: transmission), in the picture, under rays, and to what lies behind. Off: they are "
-    "opaque.");
+    "Light shines through materials that say so (glTF: transmission), in the picture, under rays, and to what lies behind. Blended ones "
+    "(glTF: BLEND) show their layers. Off: the first are opaque, and the others are cut at half their opacity.");
 TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
     "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "
     "Lambert of 0.5.",

@@ -15,9 +15,9 @@ TRTConsoleVariable<bool> CVarReorder("r.RT.Reorder", false,
     "Sorts threads by what their rays hit before material shaders run (shader execution reordering), in the reference, diffuse global "
     "illumination and reflections. Needs a device that can.");
 TRTConsoleVariable<int32_t> CVarMaterials("r.RT.GI.Materials", 0,
-    "What indirect light sees of materials with a program of their own. 0: what their standard parameters say, by one hit shader for all. "
-    "Rays then do not wait for programs, and do not take longer because there are many. What cameras and mirrors see runs the program. 1: "
-    "the program, everywhere.",
+    "What indirect light (r.RT.GI 2 and 3) sees of materials with a program of their own. 0: what their standard parameters say, by one "
+    "hit shader for all. Rays then take no longer because there are many. What cameras and mirrors see runs the program. 1: the program, "
+    "everywhere.",
     {0, 1});
 } // namespace
 

@@ -50,7 +50,7 @@ private:
 	IRTPipeline* Ask(const FFrameContext& Context, const FPipelineKey& Key);
 	bool FindPipelines(const FFrameContext& Context, const FHostScene& Scene, bool bWithMotion);
 	bool ChooseMotion(const FFrameContext& Context, const FHostScene& Scene);
-	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion, bool bTransmissive);
+	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion, bool bLayers);
 
 	FRenderer& Renderer;
 	std::map<FPipelineKey, FRasterSource> Sources;  // of the newest revisions

@@ -31,7 +31,7 @@ private:
 		double Radius = 0.0, Near = 0.0, Far = 0.0; ///< metres; near and far along the light from the world's origin
 	};
 	IRTPipeline* Ask(const FFrameContext& Context, uint32_t Program, bool bMasked);
-	static std::set<FPipelineKey> ListKeys(const FHostScene& Scene, bool bAlphaTest);
+	static std::set<FPipelineKey> ListKeys(const FHostScene& Scene, const FSceneFacts& Facts);
 	bool FindPipelines(const FFrameContext& Context, const FHostScene& Scene);
 	FCascade PlaceCascade(const FFrameContext& Context, const FHostScene& Scene, double Begin, double End, uint32_t Resolution) const;
 	void AddCascade(FFrameContext& Context, FHostScene& Scene, const FCascade& Cascade, FDrawList& Draws, FGraphTexture Map);

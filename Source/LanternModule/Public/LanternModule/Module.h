@@ -125,8 +125,8 @@ struct FRTModuleMaterial
 	/// The colour that white light has after AttenuationDistance in what is solid, 0–1 and > 0 (KHR_materials_volume).
 	float AttenuationColor[3] = {1, 1, 1};
 	float AttenuationDistance = 1.0f; ///< metres, > 0
-	/// The opacity is the share of its place that the surface covers. The rest shows what lies behind, layer by layer. As with Transmission,
-	/// rays to lights pass where a section may be masked. With Transmission > 0, that counts alone. Light sampling finds no emission of
+	/// The opacity is the share of its place that the surface covers. The rest shows what lies behind, layer by layer. As with bMasked,
+	/// the section of a mesh must say that it may be masked. With Transmission > 0, that counts alone. Light sampling finds no emission of
 	/// such surfaces, but paths of indirect light do. If r.RT.Transmission is off, they are cut at AlphaCutoff.
 	bool bBlended = false;
 };

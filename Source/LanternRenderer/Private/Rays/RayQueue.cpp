@@ -21,8 +21,8 @@ TRTConsoleVariable<float> CVarQueuePerPixel("r.RT.Rays.QueuePerPixel", 2.0f,
     {0.0001, 64});
 
 TRTConsoleVariable<bool> CVarShares("r.RT.Transmission.Shadows", true,
-    "Rays to lights pass what light shines through as often as it leaves light. Shadows of glass and of blended surfaces are then as dark "
-    "as these are. Off: rays pass what leaves more than half.");
+    "Rays to the sun and to lights with extent pass what light shines through as often as it leaves light, if a filter follows. Shadows of "
+    "glass and of blended surfaces are then as dark as these are. Off: such rays pass what leaves more than half.");
 TRTConsoleVariable<bool> CVarReceivers(
     "r.RT.Debug.Shadow.Receivers", true, "Planted fault. If off, shadow rays from characters meet what those from other surfaces do.");
 TRTConsoleVariable<int32_t> CVarPath(

@@ -8,8 +8,9 @@
 //   needs.
 //   MATERIAL_HAS_ALPHA_TEST says that the program has an alpha test. The signature of the test is
 //   bool IsHitCutAway(FMaterialRef, FSectionData, uint Primitive, vec2 Barycentrics)
+// Blended materials (MATERIAL_BLENDED) have no alpha test: what they cover is the opacity of EvaluateMaterial, or the standard one.
 // If neither is defined, the alpha test evaluates the whole program. Inline ray queries use the standard program for all materials,
-// and so does indirect light (r.RT.GI.Materials). Their standard parameters should say about what the program shows.
+// and so do r.RT.GI 2 and 3 (r.RT.GI.Materials). Their standard parameters should say about what the program shows.
 // Lights are sampled by the emission of the standard program. A program must leave the emission of materials that emit as it is.
 #pragma once
 
