@@ -6,7 +6,7 @@ namespace Lantern
 
 namespace
 {
-constexpr glm::vec3 StandardColor{0.8f}, ProgramColor{0.8f, 0.0f, 0.0f};
+constexpr glm::vec3 StandardColor{0.8f};
 constexpr uint32_t Frames = 32;
 
 class FHitProgramsTest : public FSignalTest
