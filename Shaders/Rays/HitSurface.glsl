@@ -62,11 +62,7 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	Hit.Flags |= bSolid ? (bFront ? HIT_SOLID : HIT_SOLID | HIT_INSIDE) : 0u;
 #endif
 	const uint Foliage = SECTION_MASKED | SECTION_DOUBLE_SIDED;
-	bool bFoliage = (Section.Flags & Foliage) == Foliage;
-#ifdef HAS_TRANSMISSION
-	bFoliage = bFoliage || (bBlended && (Section.Flags & SECTION_DOUBLE_SIDED) != 0u);
-#endif
-	if (bFoliage) { Hit.Flags |= HIT_FOLIAGE; }
+	if ((Section.Flags & Foliage) == Foliage) { Hit.Flags |= HIT_FOLIAGE; }
 	return Hit;
 }
 

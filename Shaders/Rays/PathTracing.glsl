@@ -268,13 +268,9 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #endif
 		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf, LENGTH_PASSED);
 #ifdef HAS_TRANSMISSION
-		bool bBlended = IsBlended(Hit);
 		if (TakePassage(Scene, bShown, Hit, Passages, Origin, Direction, Throughput, Pdf, Random))
 		{
 			if (Throughput == vec3(0.0)) { return Radiance; }
-#ifdef KEEPS_HIT
-			if (bBlended && bMirrored) { KeepHit(Hit, Direction, Throughput, KeptHit.Distance); } // what is seen beside what it covers
-#endif
 			--Bounce; // no scattering event
 			continue;
 		}

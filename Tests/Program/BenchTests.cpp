@@ -131,7 +131,7 @@ TEST_F(BenchProgram, GrowthHasAnExponentForEachLineAndAPage)
 		EXPECT_NEAR(Line["cpu_exponent"].get<double>(), std::log(Y[1] / Y[0]) / std::log(X[1] / X[0]), 1e-9) << Names.back();
 		EXPECT_TRUE(Line["gpu_exponent"].is_null()) << "the mock has no clock";
 	}
-	EXPECT_EQ(Names, (std::vector<std::string>{"objects", "triangles", "materials", "pixels"}));
+	EXPECT_EQ(Names, (std::vector<std::string>{"objects", "triangles", "materials", "programs", "pixels"}));
 	const std::string Page = ReadFile(At("growth.html"));
 	EXPECT_THAT(Page, HasSubstr("\"cpu_exponent\""));
 	EXPECT_THAT(Page, HasSubstr("Chart.js"));

@@ -224,6 +224,30 @@ FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Overr
 	EXPECT_NEAR(MeanRed(RenderSignal(ESignal::SunShadow, View, 48)), 0.7, 0.02);
 }
 
+// The sun lights the side that the camera sees. Cells that both sides share, or that know no side, would show half of it.
+TEST_F(FBlendedTest, LayersAreLitAsInTheReference)
+{
+	FTestScene Scene("Lit");
+	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(0.4f)), 4.0f)}));
+	Scene.AddNode(Scene.AddMesh({MakeWall(Scene.AddMaterial(MakeBlended({0.7f, 0.0f}, glm::vec3(0.8f))), 1.0f, 0.0f)}));
+	ASSERT_TRUE(Load(Scene.Scene));
+	SetSun(0.5, 4.0f, {0.1, -0.6, -1.0});
+	SetSky(glm::vec3(0.2f));
+	SetVariable("r.RT.GI", "3");
+	SetVariable("r.RT.GI.Cells.Capacity", "65536");
+	FView View = LookAt({0, 0.5, 3}, {0, 0.5, 0}, glm::radians(12.0f), 24, 24);
+	FImage Picture;
+	for (int Frame = 0; Frame < 48; ++Frame)
+	{
+		View.bCut = Frame == 0;
+		View.DeltaSeconds = 1.0f / 60.0f;
+		Picture = RenderLighting(View);
+	}
+	const double Reference = EstimateMean(View, 256, UnlimitedBounces).Mean;
+	PrintFigure(fmt::format("layer over the reference: {:.4f}", MeanGreen(Picture) / Reference));
+	EXPECT_NEAR(MeanGreen(Picture) / Reference, 1.0, 0.05);
+}
+
 // A decal lies so near to its wall that depth is not told apart, and cards of leaves are clear for the most part.
 TEST_F(FBlendedTest, DecalsAndClearCardsShow)
 {

@@ -110,7 +110,13 @@ TEST_F(FModuleSceneTest, BlendedMaterialsAreMarkedUnlessLightShinesThroughThem)
 	ERTMaterialHandle Handles[2] = {};
 	ASSERT_OK(Renderer->AddMaterial(Smoke, &Handles[0]));
 	ASSERT_OK(Renderer->AddMaterial(Glass, &Handles[1]));
-	for (const ERTMaterialHandle Handle : Handles) { ASSERT_OK(AddObject(AddOpaqueMesh(), Handle)); }
+	EXPECT_REFUSED(AddObject(AddOpaqueMesh(), Handles[0]), "bMayBeMasked"); // an opaque section has no layers
+	const FRTModuleSection Section{0, 3, true};
+	FRTModuleMesh Mesh = DescribeTriangle();
+	Mesh.Name = "Cards";
+	Mesh.Sections = &Section;
+	Mesh.SectionCount = 1;
+	for (const ERTMaterialHandle Handle : Handles) { ASSERT_OK(AddObject(AddMesh(Mesh), Handle)); }
 	const FSceneConstants Constants = ReadConstants(DescribeFrame());
 	const auto First = ReadEntry<FMaterialData>(Constants.Materials, 2), Second = ReadEntry<FMaterialData>(Constants.Materials, 3);
 	EXPECT_EQ(First.Flags, MATERIAL_BLENDED | MATERIAL_MASKED) << "masked where r.RT.Transmission is off";

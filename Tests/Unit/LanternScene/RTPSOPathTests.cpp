@@ -230,8 +230,10 @@ TEST_P(FPipelinePathTest, ProceduralGroupsRunTheProgramsIntersection)
 	const uint32_t Ball = Programs->Add({.Name = "Ball", .Text = MakeText(1), .IntersectionPath = "Sphere.rint"});
 	const FHitProgram Program{Ball, ERTHitClass::Procedural};
 	Wanted.HitPrograms.push_back(Program);
-	const FRayType Material = Wanted.RayTypes[1];
-	Wanted.RayTypes.emplace_back(Material).bStandardProgram = true;
+	FRayType Standard = Wanted.RayTypes[1];
+	Standard.Name = "STANDARD";
+	Standard.bStandardProgram = true;
+	Wanted.RayTypes.push_back(Standard);
 	UntilIdle();
 	auto Current = Maker->GetCurrent();
 	EXPECT_EQ(ResolveHit(*Current, 1, Program).Intersection, "Sphere.rint (Ball)");
