@@ -26,7 +26,7 @@ float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primiti
 	FetchPositions(Section, Primitive, P0, P1, P2);
 	vec3 Normal = cross(P1 - P0, P2 - P0);
 	FMaterialInputs Inputs = FetchMaterialInputs(Section, Primitive, Barycentrics);
-	if ((Material.Flags & MATERIAL_BLENDED) != 0u) 
+	if ((Material.Flags & MATERIAL_BLENDED) != 0u)
 	{
 		float Coverage = CoverageOf(Material, Inputs);
 		return Coverage < LeastSolidOpacity ? -log(1.0 - max(Coverage, 0.0)) : SolidDepth;

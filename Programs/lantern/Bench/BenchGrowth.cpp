@@ -64,12 +64,11 @@ FRTStatus MeasurePoint(FSampleEngine& Engine, EGrowthLine Line, const FBenchGrow
 {
 	const bool bIsCpu = Options.bMock || Engine.GetRenderer().GetDevice().GetCapabilities().bIsCpu;
 	FGrowthScene Growth = MakeGrowthScene(Line, Out.Value, bIsCpu);
-	const bool bPrograms = Growth.bPrograms;
 	std::vector<FHostNode> Movers;
 	for (const uint32_t Mover : Growth.Movers) { Movers.push_back(Growth.Scene.Nodes[Mover]); }
 	if (FRTStatus S = Engine.Load(std::move(Growth.Scene)); !S) { return S; }
 	FHostScene& Host = Engine.GetScene();
-	for (uint32_t Material = 0; bPrograms && Material < Out.Value; ++Material)
+	for (uint32_t Material = 0; Line == EGrowthLine::Programs && Material < Out.Value; ++Material)
 	{
 		FMaterialPrograms& Programs = Engine.GetRenderer().GetPrograms();
 		Host.GetScene().SetMaterialProgram(Material, Programs.FindOrAdd(MakeBenchProgram(Material, ProgramSalt)));

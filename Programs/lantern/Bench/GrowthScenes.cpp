@@ -20,7 +20,7 @@ namespace
 {
 constexpr FGrowthLineInfo Lines[] = {{"objects", "1 % of them move, 6 km, one size of picture"},
     {"triangles", "256 objects of one mesh each, one material"}, {"materials", "one quad each"},
-    {"programs", "a room of 1,536 quads in one order of colours, a material for each program"}, {"pixels", "1,000 objects"}};
+    {"programs", "a room of 1,500 quads with a polished floor, and a material for each program"}, {"pixels", "1,000 objects"}};
 constexpr uint32_t TriangleObjects = 256;
 
 /// Gentle hills of about that many triangles over a square of 2 m.
@@ -93,6 +93,7 @@ FGrowthScene MakeWallScene(uint64_t Materials)
 	Out.View = LookAt({0, 0, 40}, {0, 0, 0}, 1.0f, 1, 1);
 	return Out;
 }
+
 /// A room whose quads take the programs in turn, so that neighbouring rays of indirect light meet different ones. The floor is polished, and
 /// the sky shines in from above.
 FGrowthScene MakeRoomScene(uint64_t Programs)
@@ -100,7 +101,6 @@ FGrowthScene MakeRoomScene(uint64_t Programs)
 	constexpr uint32_t Edge = 16;
 	constexpr double Half = 0.5 * Edge;
 	FGrowthScene Out;
-	Out.bPrograms = true;
 	for (uint64_t I = 0; I <= Programs; ++I)
 	{
 		const bool bFloor = I == Programs;

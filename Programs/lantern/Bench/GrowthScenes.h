@@ -14,7 +14,6 @@ struct FGrowthScene
 	FSceneDescription Scene;
 	FView View;
 	std::vector<uint32_t> Movers; ///< instances that move in each frame
-	bool bPrograms = false;       ///< each material has a program of its own
 };
 
 enum class EGrowthLine

@@ -60,7 +60,7 @@ std::vector<std::pair<int32_t, std::vector<FMaskedSection>>> FindMaskedSections(
 		for (uint32_t Section = 0; Section < Sections.size(); ++Section)
 		{
 			const FHostMaterial& Material = Description.Materials[Sections[Section].Material];
-			if (Material.AlphaMode != EAlphaMode::Opaque && !IsTransmissive(Material)) // else no part of it stops all light
+			if (IsMasked(Material) && !IsTransmissive(Material)) // else no part of it stops all light
 			{
 				const int32_t Texture = Material.Slots[TEXTURE_BASE_COLOR].Texture;
 				Out[Texture < 0 ? -1 : Description.Textures[Texture].Image].push_back({Mesh, Section, {}});
@@ -159,7 +159,7 @@ FSceneOpacity ClassifySceneOpacity(FSceneDescription& Description, const FSceneP
 		for (const FHostSection& Section : Mesh.Sections)
 		{
 			const FHostMaterial& Material = Description.Materials[Section.Material];
-			const bool bOpaque = Material.AlphaMode == EAlphaMode::Opaque && !IsTransmissive(Material);
+			const bool bOpaque = !IsMasked(Material) && !IsTransmissive(Material);
 			Of.Sections.push_back({Section.FirstIndex, Section.IndexCount, bOpaque});
 		}
 	}
