@@ -6,6 +6,7 @@
 // SCREEN_PROBES: paths start at screen probes instead of pixels.
 // SHARED_PATHS: paths are left for all pixels around, which a pass behind them lights.
 // SECOND_LOBE: the paths light the specular lobe as well (ESignal::RoughSpecular).
+// HALF_FRAME: pixels are those of the half frame, and each path votes.
 // CHECKERBOARD, QUARTER: see Rate.glsl. BruteForce/Fill.comp fills the other pixels.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
 #ifndef LANTERN_DIFFUSE_GI_GLSL
@@ -32,8 +33,12 @@ void BeginLookUps(FViewConstants View, uvec2 Pixel)
 {
 	if (Push.RadianceCells == FAddress(0)) { return; }
 	FAddress Votes = FRadianceGridRef(Push.RadianceCells).Data.Votes;
+#ifdef HALF_FRAME
+	uint Number = Pixel.y * View.Width + Pixel.x; // of its own
+#else
 	uint Number = VoterOfPixel(View, Pixel);
-#if defined(QUARTER)
+#endif
+#if defined(QUARTER) || defined(HALF_FRAME)
 	bool bVotes = true;
 #elif defined(CHECKERBOARD)
 	uint Rows = min(View.Height - (Pixel.y & ~1u), 2u); // fewer at the border

@@ -97,15 +97,15 @@ protected:
 	{
 		TRTRef<IRTBuffer> Readback;
 		GetEngine().ExtraPasses = [&](FFrameContext& Context, const FGBuffer&, const FFrameOutputs&) {
-			ASSERT_TRUE(Context.LightCells.Buffer.IsValid());
-			const uint64_t Bytes = Context.Graph.GetDesc(Context.LightCells.Buffer).Size;
+			ASSERT_TRUE(Context.World->LightCells.Buffer.IsValid());
+			const uint64_t Bytes = Context.Graph.GetDesc(Context.World->LightCells.Buffer).Size;
 			ASSERT_OK(
 			    GetDevice().CreateBuffer({Bytes, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Grid"}, Readback.ReleaseAndGetAddress()));
 			const FGraphBuffer Out = Context.Graph.ImportBuffer(Readback.Get(), ERTAccess::None, ERTAccess::HostRead, "Grid");
 			Context.Graph.AddPass("ReadGrid", [&](FPassBuilder& Builder) -> FPassExecute {
-				Builder.Read(Context.LightCells.Buffer, ERTAccess::CopyRead);
+				Builder.Read(Context.World->LightCells.Buffer, ERTAccess::CopyRead);
 				Builder.Write(Out, ERTAccess::CopyWrite);
-				return [=, From = Context.LightCells.Buffer](
+				return [=, From = Context.World->LightCells.Buffer](
 				           FPassContext& Pass) { Pass.Commands().CopyBuffer(Pass.GetBuffer(Out), 0, Pass.GetBuffer(From), 0, Bytes); };
 			});
 		};

@@ -236,7 +236,7 @@ private:
 		if (FRTStatus S = Engine.RenderFrame(At, Time, Capture, bPicture ? &Frame : nullptr); !S) { return S; }
 		if (bSettle)
 		{
-			const bool bAccumulates = Engine.GetRenderer().GetHistory().GetBytes() > 0;
+			const bool bAccumulates = Engine.GetRenderer().GetHistoryBytes() > 0;
 			Settled = Settling.Add(Frame.Lighting) || !bAccumulates;
 		}
 		// The first frame of several builds and compiles: it is not what a frame costs. Timings are those of up to two frames before.

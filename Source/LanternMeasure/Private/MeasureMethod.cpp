@@ -241,7 +241,7 @@ FRTStatus ProbeMethod(FSampleEngine& Engine, const FMethods& Methods, const FMet
 		Out.FrameSeconds = Played.Seconds;
 		return Out.bSignal;
 	});
-	Out.bHistory = Engine.GetRenderer().GetHistory().GetBytes() > 0;
+	Out.bHistory = Engine.GetRenderer().GetHistoryBytes() > 0;
 	return S;
 }
 

@@ -55,7 +55,7 @@ FRTStatus StartAnew(FSampleEngine& Engine)
 {
 	FRenderer& Renderer = Engine.GetRenderer();
 	if (FRTStatus S = Renderer.WaitForAll(); !S) { return S; }
-	Renderer.GetHistory().Clear();
+	Renderer.ClearHistories();
 	Renderer.GetGraphResources().Trim(0);
 	Engine.SetFrameIndex(0);
 	return FRTStatus::Success();

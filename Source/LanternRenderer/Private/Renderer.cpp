@@ -12,6 +12,7 @@
 #include "Feedback/ReflectionCounter.h"
 #include "Feedback/StandInFeedback.h"
 #include "FrameChoices.h"
+#include "HalfFrame/HalfFrame.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "LanternCore/Tasks/TaskTrace.h"
@@ -184,9 +185,10 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	ApplySceneVariables(Scene);
 	FrameStatus = FRTStatus::Success();
 	Graph = std::make_unique<FFrameGraph>(GraphResources);
-	Context.reset(new FFrameContext{Device, *Graph, Scene, Pipelines, Scene.RefreshFacts()});
+	Context.reset(new FFrameContext{{}, Device, *Graph, Scene, Pipelines, Scene.RefreshFacts()});
 	Context->Signals = CompleteRequests(Features.Signals);
 	Context->Facts = AddFrameFacts(Context->Facts, Features, Context->Signals);
+	Context->World = std::make_shared<FWorldOfFrame>();
 	Context->View = View;
 	Context->Width = View.Width;
 	Context->Height = View.Height;
@@ -200,7 +202,10 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Pipelines.BeginFrame();
 	FindPreviousView(Scene, Features);
 	const bool bSameWorld = State->LastScene == Scene.GetSections().GetIdentity();
-	State->History->BeginFrame(*Graph, Context->PreviousView != nullptr, bSameWorld);
+	for (FHistoryResources* const History : {State->History.get(), State->HalfHistory.get()})
+	{
+		History->BeginFrame(*Graph, Context->PreviousView != nullptr, bSameWorld);
+	}
 	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
 	if (PoisonEvery > 0 && View.FrameIndex % static_cast<uint32_t>(PoisonEvery) == 0) { GraphResources.PoisonHistory(""); }
 	bUpdating = bRayPassesAdded = false;
@@ -291,18 +296,20 @@ void FRenderer::WriteConstants()
 {
 	FSceneConstants OfScene = Context->Scene.GetConstants();
 	OfScene.AnyHitCounter = AnyHits->GetCounters().GetAddress();
-	OfScene.LightCells = Context->LightCells.Address;
+	OfScene.LightCells = Context->World->LightCells.Address;
 	Sky->FillConstants(OfScene);
 	OfScene.StandInHits = StandIns->GetCounters().GetAddress();
 	FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin(), Context->PreviousView);
 	OfView.FrameIndex = State->Turn;
 	std::memcpy(SceneConstants.Data, &OfScene, sizeof(OfScene));
 	std::memcpy(ViewConstants.Data, &OfView, sizeof(OfView));
+	if (Context->Half) { WriteHalfConstants(*Context->Half, OfView.FrameIndex); }
 }
 
 void FRenderer::KeepHistory(bool bSubmitted)
 {
 	State->History->EndFrame(bSubmitted);
+	State->HalfHistory->EndFrame(bSubmitted);
 	Sky->EndFrame(bSubmitted);
 	State->Casters->EndFrame(bSubmitted);
 	State->RadianceEvents->EndFrame(bSubmitted);
@@ -321,12 +328,24 @@ FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
 	{
 		static std::atomic<uint64_t> LastViewer = 0; // 0 is nobody's
 		View.History = std::make_unique<FHistoryResources>(Device);
+		View.HalfHistory = std::make_unique<FHistoryResources>(Device);
 		View.LightCells = std::make_unique<FLightCells>(Device);
 		View.Casters = std::make_unique<FMovedCasters>();
 		View.RadianceEvents = std::make_unique<FRadianceEvents>();
 		View.Viewer = ++LastViewer;
 	}
 	return View;
+}
+
+void FRenderer::ClearHistories(uint32_t ViewIndex)
+{
+	GetView(ViewIndex).History->Clear();
+	GetView(ViewIndex).HalfHistory->Clear();
+}
+
+uint64_t FRenderer::GetHistoryBytes(uint32_t ViewIndex)
+{
+	return GetView(ViewIndex).History->GetBytes() + GetView(ViewIndex).HalfHistory->GetBytes();
 }
 
 /// Where the motion of objects is followed, motions must lead back to this view's own last frame. A host with motion vectors of its
@@ -347,8 +366,9 @@ void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features
 	PreviousView.Height = State->LastView.Height;
 	const bool bUsable = bSameScene && State->LastView.Width > 0 && !Context->View.bCut && !Features.bReference;
 	Context->PreviousView = bUsable ? &PreviousView : nullptr;
-	Context->History = State->History.get();
-	Context->LightCells.OfView = State->LightCells.get();
+	Context->History = Context->World->History = State->History.get();
+	Context->HalfHistory = State->HalfHistory.get();
+	Context->World->LightCells.OfView = State->LightCells.get();
 	Context->MovedCasters = State->Casters.get();
 	Context->RadianceEvents = State->RadianceEvents.get();
 }

@@ -271,7 +271,7 @@ TEST_F(FRendererLackTest, NoFilterNoHistoryAndNoMotion)
 	const std::vector<std::pair<const char*, const char*>> Pipeline = {{"r.RT.Shadow.Path", "1"}};
 	EXPECT_TRUE(HasPart(Make({}, Pipeline), "Shadow.rchit"));
 	EXPECT_FALSE(HasPart(Make(Stage, Pipeline), "Shadow.rchit")) << "shadow rays run nothing where they hit";
-	EXPECT_EQ(Engine->GetRenderer().GetHistory().GetBytes(), 0u);
+	EXPECT_EQ(Engine->GetRenderer().GetHistoryBytes(), 0u);
 	Engine->Signals.bMotion = true;
 	Render(0.5);
 	EXPECT_TRUE(HasPart(CollectNames(), "buffer ObjectMotions")) << "who asks has it without a filter";
@@ -463,15 +463,15 @@ TEST_F(FRendererLackTest, RayTracingOffLeavesTheRaster)
 TEST_F(FRendererLackTest, HistoriesOfASignalThatEndedAreFreed)
 {
 	Make({});
-	const auto& History = Engine->GetRenderer().GetHistory();
-	const uint64_t Both = History.GetBytes();
+	FRenderer& Renderer = Engine->GetRenderer();
+	const uint64_t Both = Renderer.GetHistoryBytes();
 	Set("r.RT.AO", "0");
 	for (uint32_t Index = 0; Index < FHistoryResources::KeepFrames + 1; ++Index) { Render(0.3); }
-	EXPECT_LT(History.GetBytes(), Both);
+	EXPECT_LT(Renderer.GetHistoryBytes(), Both);
 	Set("r.RT.Shadow", "0");
 	Set("r.RT.Lights", "0");
 	for (uint32_t Index = 0; Index < FHistoryResources::KeepFrames + 1; ++Index) { Render(0.3); }
-	EXPECT_EQ(History.GetBytes(), 0u);
+	EXPECT_EQ(Renderer.GetHistoryBytes(), 0u);
 }
 
 } // namespace

@@ -85,7 +85,7 @@ FRTStatus FStabilityStage::Play(const std::vector<FStabilityShot>& Shots, std::v
 	}
 	OutFrames.assign(Shots.size(), {});
 	if (FRTStatus S = Engine.GetRenderer().WaitForAll(); !S) { return S; }
-	Engine.GetRenderer().GetHistory().Clear();
+	Engine.GetRenderer().ClearHistories();
 	Engine.SetFrameIndex(0);
 	FFrameCapture Capture;
 	Capture.Signals.Add(Signal);
@@ -103,7 +103,7 @@ FRTStatus FStabilityStage::Play(const std::vector<FStabilityShot>& Shots, std::v
 		OutFrames[I] = std::move(Frame.Get(Signal));
 		if (OutFrames[I].IsEmpty()) { return FRTStatus::Error(ERTResult::Unsupported, "the frame has no such signal"); }
 	}
-	bKeepsHistory = Engine.GetRenderer().GetHistory().GetBytes() > 0;
+	bKeepsHistory = Engine.GetRenderer().GetHistoryBytes() > 0;
 	return FRTStatus::Success();
 }
 

@@ -181,7 +181,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.PathRecords = GetAddress(Pass, Paths.Guide.Records);
 	C.ProbeGrid = WriteScreenProbeGrid(Pass, Paths.Probes);
 	C.Shared = GetAddress(Pass, Paths.Shared.Fresh);
-	C.NearPixels = GetNearPixels();
+	C.NearPixels = GetNearPixels(Frame);
 	C.ToonPixels = GetSampledIndex(Pass, Paths.Toon);
 	if (bDeferred) { return TraceThreadList(Pass, Frame, Paths.Second, Paths.Deferred, C, Paths.Width, Paths.Height); }
 	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces));

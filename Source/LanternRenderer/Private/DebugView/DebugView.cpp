@@ -61,10 +61,12 @@ FGraphTexture AddDebugView(FFrameContext& Context, const FGBuffer& GBuffer, cons
 {
 	if (IsDebugPicture(LightCellsPicture)) { return AddLightCellsView(Context, GBuffer, Outputs.Display); }
 	const ESignal Signal = GetDebugView();
-	const FGraphTexture Input = Outputs.Get(Signal);
 	if (Signal == ESignal::Frame) { return Outputs.Display; }
-	if (Context.DebugPicture.IsValid()) { return Context.DebugPicture; }
-	if (!Input.IsValid() || !FindSignal(CVarView.GetOnRenderThread()))
+	const bool bPicture = Context.DebugPicture.IsValid();
+	const FGraphTexture Input = bPicture ? Context.DebugPicture : Outputs.Get(Signal);
+	const uint32_t Scale = Input.IsValid() ? DivideUp(Context.Width, Context.Graph.GetDesc(Input).Width) : 1;
+	if (bPicture && Scale == 1) { return Input; }
+	if (!Input.IsValid() || (!bPicture && !FindSignal(CVarView.GetOnRenderThread())))
 	{
 		LogOnce(ERTLogLevel::Info, "r.RT.Debug.View shows the picture: there is no " + CVarView.GetOnRenderThread() +
 		                               ". It is off, the scene has nothing for it, or its shaders are being compiled");
@@ -82,7 +84,8 @@ FGraphTexture AddDebugView(FFrameContext& Context, const FGBuffer& GBuffer, cons
 			C.Pass = Frame->Pass;
 			C.Input = GetSampledIndex(Pass, Input);
 			C.Output = GetStorageIndex(Pass, Output);
-			C.bRadiance = GetSignalInfo(Signal).bRadiance ? 1u : 0u;
+			C.Show = bPicture ? DEBUG_SHOW_PICTURE : GetSignalInfo(Signal).bRadiance ? DEBUG_SHOW_RADIANCE : DEBUG_SHOW_GREY;
+			C.Scale = Scale;
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, DEBUG_VIEW_GROUP_SIZE);
 		};
 	});

@@ -5,6 +5,7 @@
 
 #include "BruteForce/BruteForce.h"
 #include "Denoise/Denoise.h"
+#include "HalfFrame/HalfFrame.h"
 #include "MovedShare/MovedShare.h"
 #include "RadianceCells/RadianceCells.h"
 #include "RadianceCells/RadianceCellsView.h"
@@ -31,6 +32,9 @@ TRTConsoleVariable<int32_t> CVarRate("r.RT.GI.Rate", 0,
     "Pixels that trace diffuse global illumination in a frame. 0: all. 1: every other pixel, in turn. 2: one of four, in turn. The others "
     "take what neighbours on their plane found.",
     {0, 2});
+TRTConsoleVariable<bool> CVarHalf("r.RT.GI.HalfResolution", false,
+    "Diffuse global illumination and rough specular light are found for one pixel of each 2 x 2, filtered there, and brought to the others "
+    "along surfaces. r.RT.GI.Rate is then of these pixels. With r.RT.GI 3.");
 TRTConsoleVariable<int32_t> CVarPath("r.RT.GI.Path", 0,
     "How diffuse global illumination traces. 0: by the pipeline where there is one. 1: ray-tracing pipeline. 2: ray queries, which see all "
     "materials as the standard program shows them, and no own shapes.",
@@ -80,11 +84,12 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 	{
 		// Each pixel has a value in each frame, and as few paths in a second as one that has a value in its turn. The scene says what has
 		// changed, so that history may last longer than where the picture must show it.
-		Settings.HistorySeconds *= KnownChangesHistory * static_cast<float>(GetTurnFrames(GetTraceRate()));
+		const uint32_t PathsPerPixel = Context.bHalf ? GetTurnFrames(EPixelRate::Quarter) : 1;
+		Settings.HistorySeconds *= KnownChangesHistory * static_cast<float>(GetTurnFrames(GetTraceRate()) * PathsPerPixel);
 		Settings.Passes = std::min(Settings.Passes, MostReusePasses);
 		if (GetTraceRate() != EPixelRate::Full) { Settings.FirstStep = ReuseStep; }
 	}
-	if (const FRadianceCells* const Cells = Context.RadianceCells.get())
+	if (const FRadianceCells* const Cells = Context.World->RadianceCells.get())
 	{
 		Settings.HistorySeconds = std::min(Settings.HistorySeconds, Cells->EventFrames * Context.View.DeltaSeconds);
 	}
@@ -123,12 +128,30 @@ FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBrute
 	return Lobes;
 }
 
+FLobes AddLobes(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	// The filter tells surfaces apart by the normals that they have, in the frame before as well.
+	return FilterLobes(Context, GBuffer, AddBruteForcePass(BruteForce, Context, RequireToonSurface(Context, GBuffer)));
+}
+
+FLobes AddHalfLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch)
+{
+	FHalfFrame* const Half = RequireHalfFrame(Context, GBuffer);
+	if (!Half) { return {}; }
+	(void)RequireRadianceCells(Context, Dispatch.Compute ? ERayPath::Query : ERayPath::Pipeline);
+	const FLobes Lobes = AddLobes(Half->Context, Half->GBuffer);
+	return AddUpsample(Context, RequireToonSurface(Context, GBuffer), GetSignalInfo(ESignal::DiffuseGI).Pass, Lobes);
+}
+
 const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	if (Context.IndirectLobes) { return *Context.IndirectLobes; }
 	(void)AddReflectionsPass(Context, GBuffer); // they ask for cells as well, before these are brought up to date
-	// The filter tells surfaces apart by the normals that they have, in the frame before as well.
-	FLobes Lobes = FilterLobes(Context, GBuffer, AddBruteForcePass(BruteForce, Context, RequireToonSurface(Context, GBuffer)));
+	// The shader of now decides: that of before serves until another one is compiled.
+	const std::optional<FRayDispatch> Dispatch =
+	    RequireRayDispatch(Context, ESignal::DiffuseGI, ChooseSignalRays(Context, ESignal::DiffuseGI));
+	const bool bHalf = Dispatch && Dispatch->Has(HalfFrameDefine);
+	FLobes Lobes = bHalf ? AddHalfLobes(Context, GBuffer, *Dispatch) : AddLobes(Context, GBuffer);
 	const bool bHorizon = !IsProbeRoute(); // probes make up for what lies below a surface
 	Lobes.Diffuse = AddToonGrade(Context, GBuffer, Lobes.Diffuse, bHorizon, Denoise.IsEnabled());
 	Context.IndirectLobes = Lobes;
@@ -142,6 +165,11 @@ FPassRays ChooseDiffuseGIRays(const FPassQuery& Query)
 	FPassRays Rays = ChooseBruteForceRays(BruteForce, Query);
 	if (Rays.bRadianceCells) { ListRadianceCellsViewShaders(Rays.Compute); }
 	if (Rays.Path != ERayPath::None) { ListToonShaders(Query.Facts, false, Rays.Compute); }
+	if (Rays.bRadianceCells && !IsProbeRoute() && CVarHalf.GetOnRenderThread())
+	{
+		Rays.Defines.emplace_back(HalfFrameDefine, "1");
+		ListHalfFrameShaders(IsPair(Query), Rays.Compute);
+	}
 	return Rays;
 }
 

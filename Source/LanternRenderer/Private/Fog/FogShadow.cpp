@@ -250,7 +250,7 @@ void AddFogDepthPass(FFrameContext& Context, const FGBuffer& GBuffer)
 	Context.Fog.bDepthAsked = true;
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource("Depth"));
 	if (!Pipeline) { return; } // AddFogShadowPass had it
-	const FLightCellsOfFrame Cells = Context.LightCells.bGridAsked ? RequireLightCells(Context, GBuffer) : FLightCellsOfFrame();
+	const FLightCellsOfFrame Cells = Context.World->LightCells.bGridAsked ? RequireLightCells(Context, GBuffer) : FLightCellsOfFrame();
 	const FFrameContext* const Frame = &Context;
 	const FFogGrid Grid = Context.Fog.Atlas.Grid;
 	const FGraphTexture Output = Context.Fog.Depth;

@@ -72,7 +72,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
-		if (bVisitsLights) { ReadLightCells(Builder, Context.LightCells, false); }
+		if (bVisitsLights) { ReadLightCells(Builder, Context.World->LightCells, false); }
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		return [=](FPassContext& Pass) {
 			const auto Sampled = [&](FGraphTexture Texture) { return GetSampledIndex(Pass, Texture); };

@@ -311,7 +311,7 @@ void FLightCells::WriteGrid(FPassContext& Pass)
 	// The frame is recorded, so its lists will be as the journal says.
 	Seen = Frame->JournalEnd;
 	Newest = Frame->Grid;
-	Frame->Context->LightCells.Address = Frame->GridData.Address;
+	Frame->Context->World->LightCells.Address = Frame->GridData.Address;
 }
 
 void FLightCells::AddLists(FFrameContext& Context, const FGBuffer& GBuffer)
@@ -343,7 +343,7 @@ void FLightCells::AddCountPass(FFrameContext& Context, FFrame& Of)
 	Entry->Notes = Of.Grid.PoolEntries;
 	const FGraphBuffer Out = Context.Graph.ImportBuffer(Entry->Buffer.Get(), ERTAccess::HostRead, ERTAccess::HostRead, "LightCellCounters");
 	Context.Graph.MarkForLater(Out, &bCounted);
-	Context.LightCells.Counts = Out;
+	Context.World->LightCells.Counts = Out;
 	Context.Graph.AddPass("LightCellsCount", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(Of.Cells, ERTAccess::CopyRead);
 		Builder.Write(Out, ERTAccess::CopyWrite);
@@ -367,7 +367,7 @@ void ListLightCellShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 
 const FLightCellsOfFrame& RequireLightCells(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	FLightCellsOfFrame& Cells = Context.LightCells;
+	FLightCellsOfFrame& Cells = Context.World->LightCells;
 	if (!Cells.bAsked && RequireLightGrid(Context).Buffer.IsValid()) { Cells.OfView->AddLists(Context, GBuffer); }
 	Cells.bAsked = true;
 	return Cells;
@@ -375,7 +375,7 @@ const FLightCellsOfFrame& RequireLightCells(FFrameContext& Context, const FGBuff
 
 const FLightCellsOfFrame& RequireLightGrid(FFrameContext& Context)
 {
-	FLightCellsOfFrame& Cells = Context.LightCells;
+	FLightCellsOfFrame& Cells = Context.World->LightCells;
 	if (!Cells.bGridAsked && Cells.OfView && HasLightCells(Context.Facts)) { Cells.Buffer = Cells.OfView->AddGrid(Context); }
 	Cells.bGridAsked = true;
 	return Cells;

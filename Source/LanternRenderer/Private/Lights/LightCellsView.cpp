@@ -28,7 +28,7 @@ FGraphTexture AddLightCellsView(FFrameContext& Context, const FGBuffer& GBuffer,
 		return [=](FPassContext& Pass) {
 			FLightCellConstants C{};
 			C.Pass = Frame->Pass;
-			C.Grid = Frame->LightCells.Address;
+			C.Grid = Frame->World->LightCells.Address;
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			C.Output = GetStorageIndex(Pass, Output);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, LIGHT_CELL_MARK_SIZE);

@@ -2,6 +2,7 @@
 #include "LocalLights/LocalLights.h"
 
 #include "Denoise/Denoise.h"
+#include "HalfFrame/HalfFrame.h"
 #include "Lighting/DirectLighting.h"
 #include "Lights/PixelChannels.h"
 #include "LocalLightTypes.h"
@@ -26,6 +27,9 @@ TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
     "Most lights of a tile of 8 x 8 pixels that all get a ray from each pixel. Each pixel of a tile with more chooses some, as many as "
     "r.RT.Lights.Rays says.",
     {1, TILE_LIGHTS});
+TRTConsoleVariable<bool> CVarHalf("r.RT.Lights.HalfResolution", false,
+    "Light of local lights is found for one pixel of each 2 x 2, filtered there, and brought to the others along surfaces. r.RT.Lights.Rate "
+    "is then of these pixels. Does not count where an engine reads the light mask.");
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
     "The filter of diffuse light looks for changes on surfaces that move, and where a moved caster may shadow a lamp. For 0.13 s "
     "after a lamp has changed, it looks everywhere. If off, it always looks for them in the picture, and takes some noise for change.");
@@ -115,7 +119,8 @@ const FLobes* RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 	return &*Context.LocalLobes;
 }
 
-FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal)
+/// A lobe of the frame that has the rays.
+FGraphTexture AddTracedLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal)
 {
 	if (!IsMade(Signal, Context.Signals) || ChooseSignalRays(Context, Signal).Path == ERayPath::None) { return {}; }
 	const FLobes* const Lobes = RequireLobes(Context, GBuffer);
@@ -137,9 +142,28 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	}
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
+
+FLobes AddHalfLobes(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	FHalfFrame* const Half = RequireHalfFrame(Context, GBuffer);
+	if (!Half) { return {}; }
+	FLobes Lobes;
+	Lobes.Diffuse = AddTracedLobe(Half->Context, Half->GBuffer, ESignal::LocalDiffuse);
+	Lobes.Specular = AddTracedLobe(Half->Context, Half->GBuffer, ESignal::LocalSpecular);
+	return AddUpsample(Context, GBuffer, GetSignalInfo(ESignal::LocalDiffuse).Pass, Lobes);
+}
+
+FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal)
+{
+	if (!AreLocalLightsHalf(Context.Facts)) { return AddTracedLobe(Context, GBuffer, Signal); }
+	if (!Context.LocalLobes) { Context.LocalLobes = AddHalfLobes(Context, GBuffer); }
+	return Signal == ESignal::LocalDiffuse ? Context.LocalLobes->Diffuse : Context.LocalLobes->Specular;
+}
 } // namespace
 
 bool AreLocalLightsShadowed() { return CVarLights.GetOnRenderThread(); }
+
+bool AreLocalLightsHalf(const FSceneFacts& Facts) { return CVarHalf.GetOnRenderThread() && !Facts.bLightMask; }
 
 ERayPath ChooseLocalLightPath(const FPassQuery& Query)
 {
@@ -169,6 +193,11 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	ListLocalRequestShaders(Query.Facts, Exact, Rays.Compute);
 	ListLightMaskShaders(Query.Facts, Rays.Compute);
 	ListLampViewShaders(Rays.Compute);
+	if (AreLocalLightsHalf(Query.Facts))
+	{
+		const bool bPair = IsMade(ESignal::LocalDiffuse, Query.Requests) && IsMade(ESignal::LocalSpecular, Query.Requests);
+		ListHalfFrameShaders(bPair, Rays.Compute);
+	}
 	if (Denoise.IsEnabled() && AreChangesFollowed(Query.Facts))
 	{
 		ListLampChangeShaders(AreLampsChosen(Query.Facts), Query.Facts, MakeLocalDefines(Query.Facts, Exact), Rays.Compute);

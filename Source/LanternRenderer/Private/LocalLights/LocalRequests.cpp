@@ -201,7 +201,7 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 		else if (Inputs.Choices.IsValid()) { Builder.Write(Inputs.Choices, ERTAccess::StorageWrite); }
 		if (Inputs.bFirst) { Builder.Write(Inputs.Queue.Answers, ERTAccess::StorageWrite); }
 		if (Inputs.IsGuided()) { DeclareGuide(Builder, Inputs, !bLists); }
-		else if (Inputs.Rays.bMany) { ReadLightCells(Builder, Frame->LightCells, false); }
+		else if (Inputs.Rays.bMany) { ReadLightCells(Builder, Frame->World->LightCells, false); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			if (Inputs.bFirst) { StartQueue(Pass, Inputs.Queue); }

@@ -25,7 +25,7 @@ FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer, ELi
 	if (!AreIndirectChangesTold()) { return {}; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource()); // before it is needed: then it would be too late
 	const FMoversOfFrame& Movers = RequireMovers(Context);
-	const FRadianceCells* const Cells = Context.RadianceCells.get();
+	const FRadianceCells* const Cells = Context.World->RadianceCells.get();
 	const uint32_t LampCount = Cells ? Cells->Grid.EventCount : 0;
 	if (!Pipeline || (Movers.Count == 0 && LampCount == 0)) { return {}; }
 	FMovedShareConstants C{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -126,13 +127,16 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 	const auto Cells = std::make_shared<FRadianceCells>();
 	Cells->Slots = GetSlots();
 	const FRadianceEvents::FFound Events =
-	    Context.RadianceEvents->Find(Context.Scene, MakeGatherView(Context.View).Position, Context.View.DeltaSeconds, Context.SkyChange);
+	    Context.RadianceEvents->Find(Context.Scene, MakeGatherView(Context.View).Position, Context.View.DeltaSeconds, Context.World->SkyChange);
 	Cells->Grid = MakeGrid(Context, Cells->Slots, Events);
-	const uint32_t Others = Context.Facts.bTransmissive && Context.Signals.bTransmission ? 2 : 1;
-	Cells->Grid.VoteCount = CountPathVoters(Context) + Others * CountBlockVoters(Context);
+	const uint32_t Blocks = DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2);
+	Cells->ReflectionVoters = std::max(Blocks, CountScreenProbeVoters(Context));
+	Cells->TransmissionVoters = Cells->ReflectionVoters + Blocks;
+	const bool bTransmission = Context.Facts.bTransmissive && Context.Signals.bTransmission;
+	Cells->Grid.VoteCount = Cells->TransmissionVoters + (bTransmission ? Blocks : 0);
 	Cells->EventFrames = Events.Window;
 	FHistoryBuffer History;
-	FRTStatus Status = Context.History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);
+	FRTStatus Status = Context.World->History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);
 	FFrameUploads& Uploads = Context.Owner->GetUploads();
 	if (Status) { Status = Uploads.Allocate(sizeof(FRadianceGrid), Cells->GridData); }
 	if (Status && !Events.Lamps.empty())
@@ -269,17 +273,16 @@ void AddRadianceCellDefines(FShaderDefines& InOut)
 	if (!CVarLastMirror.GetOnRenderThread()) { InOut.emplace_back("NO_LAST_MIRROR", "1"); }
 }
 
-uint32_t CountPathVoters(const FFrameContext& Context) { return std::max(CountBlockVoters(Context), CountScreenProbeVoters(Context)); }
-
 const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path)
 {
-	if (!Context.bRadianceCellsAsked)
+	if (!Context.World->bRadianceCellsAsked)
 	{
-		Context.bRadianceCellsAsked = true;
+		assert(!Context.bHalf);
+		Context.World->bRadianceCellsAsked = true;
 		const bool bReady = AreReady(Context) && FindUpdateDispatch(Context, Path);
-		if (bReady) { Context.RadianceCells = MakeCells(Context); }
+		if (bReady) { Context.World->RadianceCells = MakeCells(Context); }
 	}
-	return Context.RadianceCells.get();
+	return Context.World->RadianceCells.get();
 }
 
 void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells)
@@ -312,7 +315,7 @@ FAddress WriteRadianceGrid(FPassContext& Pass, const FRadianceCells* Cells)
 
 bool AddRadianceCellPasses(FFrameContext& Context, const FGBuffer& GBuffer, ERayPath Path, const FBesideUpdates& Beside)
 {
-	const std::shared_ptr<const FRadianceCells> Cells = Context.RadianceCells;
+	const std::shared_ptr<const FRadianceCells> Cells = Context.World->RadianceCells;
 	if (!Cells) { return false; }
 	const std::optional<FRayDispatch> Dispatch = FindUpdateDispatch(Context, Path);
 	if (!Dispatch) { return false; }

@@ -21,6 +21,8 @@ struct FRadianceCells
 	FUploadSlice GridData;
 	float EventFrames = 0.0f; ///< for which what pixels saw may hold, by what has changed
 	uint32_t Slots = 0;
+	/// First voters of reflections, and of surfaces that light shines through. Those of the pass that keeps the cells come before them.
+	uint32_t ReflectionVoters = 0, TransmissionVoters = 0;
 };
 
 /// What the updates of cells trace, and their other shaders, for frames with a pass whose rays end in them (FPassRays::bRadianceCells).
@@ -30,15 +32,11 @@ FPassRays ChooseRadianceCellRays(const FPassQuery& Query, ERayPath Path);
 void AddRadianceCellDefines(FShaderDefines& InOut);
 constexpr const char* RadianceCellShaders = "RadianceCells/Update";
 
-/// Returns the voters of the pass that keeps the cells. Some may write no vote while others' shaders are compiled: a vote of an earlier frame
-/// is no cell's any more.
-uint32_t CountPathVoters(const FFrameContext& Context);
-/// Returns how many voters there are where each 2×2 pixels share one (VoterOfPixel in Shaders/Library/RadianceCells.glsl).
-inline uint32_t CountBlockVoters(const FFrameContext& Context) { return DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2); }
 /// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells. Path: as in
-/// ChooseRadianceCellRays. Look-ups that may vote have places of their own in FRadianceGrid::Votes, which they write in any case. First come
-/// CountPathVoters of the pass that keeps the cells, then CountBlockVoters of reflections and, with FSignalRequests::bTransmission, as many of
-/// surfaces that light shines through. These are added before AddRadianceCellPasses.
+/// ChooseRadianceCellRays. The first call of a frame is for the whole one. Look-ups that may vote have places of their own in
+/// FRadianceGrid::Votes, which they write in any case. Each 2×2 pixels share one (VoterOfPixel in Shaders/Library/RadianceCells.glsl), and a
+/// pixel of the half frame has its own. Some may write no vote while others' shaders are compiled: a vote of an earlier frame is no cell's any
+/// more. Passes that vote are added before AddRadianceCellPasses.
 const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path);
 /// Declares that a pass looks cells up and asks for those that it misses. Cells may be null.
 void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells);

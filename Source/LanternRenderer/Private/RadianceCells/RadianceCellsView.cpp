@@ -20,7 +20,7 @@ void ListRadianceCellsViewShaders(std::vector<FShaderSource>& Out)
 
 void AddRadianceCellsView(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	const std::shared_ptr<const FRadianceCells> Cells = Context.RadianceCells;
+	const std::shared_ptr<const FRadianceCells> Cells = Context.World->RadianceCells;
 	if (!IsWanted() || !Cells) { return; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource());
 	if (!Pipeline) { return; }

@@ -109,9 +109,13 @@ ERayPath ChooseQueuePath(const FPassQuery& Query, const char* What) { return Cho
 FRayQueue CreateRayQueue(FFrameContext& Context, uint32_t MostPerPixel)
 {
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
-	const double Room = std::ceil(Context.QueueDemand->GetRoom(CVarQueuePerPixel.GetOnRenderThread()) * double(Pixels));
 	FRayQueue Queue;
 	Queue.MostWanted = Pixels * MostPerPixel;
+	// The half frame's pixels are few: theirs has room for all, and the demand is that of the other.
+	const double Room = Context.bHalf
+	                        ? double(Queue.MostWanted)
+	                        : std::ceil(Context.QueueDemand->GetRoom(CVarQueuePerPixel.GetOnRenderThread()) * double(Pixels));
+	if (Context.bHalf) { Queue.Name += "Half"; }
 	Queue.Capacity =
 	    static_cast<uint32_t>(std::max(std::min({Room, double(Queue.MostWanted), double(MaxCapacity)}), 1.0)); // buffers have a size
 	Queue.bMayOverflow = Queue.Capacity < Queue.MostWanted;

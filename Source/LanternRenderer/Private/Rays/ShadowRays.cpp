@@ -21,7 +21,7 @@ std::optional<FAsked> AskSignals(FFrameContext& Context)
 {
 	std::optional<FAsked> Asked;
 	ForEachSignalPass([&](const FSignalPass& Pass) {
-		if (!Pass.AskShadowRays) { return; }
+		if (!Pass.AskShadowRays || (Pass.IsHalf && Pass.IsHalf(Context.Facts)) != Context.bHalf) { return; }
 		const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, Pass.Signal, ChooseSignalRays(Context, Pass.Signal));
 		if (!Dispatch) { return; }
 		FAsked Next = Asked ? *Asked : FAsked{*Dispatch, {}};

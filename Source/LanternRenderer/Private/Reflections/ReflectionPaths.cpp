@@ -277,8 +277,8 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 	const ERayPath Cached = ChooseRadianceCellPath(Query);
 	if (Cached != ERayPath::None && Dispatch->Has("RADIANCE_CELLS"))
 	{
-		Paths.FirstVoter = CountPathVoters(Context);
 		Paths.Cells = RequireRadianceCells(Context, Cached);
+		Paths.FirstVoter = Paths.Cells ? Paths.Cells->ReflectionVoters : 0;
 	}
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
 	Paths.Radiance = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, "ReflectedRadiance");

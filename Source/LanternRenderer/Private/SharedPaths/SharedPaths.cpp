@@ -41,7 +41,11 @@ FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSeco
 	return Shared;
 }
 
-float GetNearPixels() { return CVarNear.GetOnRenderThread(); }
+float GetNearPixels(const FFrameContext& Context)
+{
+	const float Near = CVarNear.GetOnRenderThread();
+	return Context.bHalf ? 0.5f * Near : Near;
+}
 
 void AddPathResolve(FFrameContext& Context, const FGBuffer& GBuffer, const FSharedPaths& Shared, FGraphTexture Output, FGraphTexture Second)
 {

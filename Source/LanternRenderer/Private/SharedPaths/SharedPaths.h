@@ -22,7 +22,7 @@ void AddSharedPathShaders(EPixelRate Rate, bool bSecondLobe, FShaderDefines& InO
 /// Threads: of the first launch. Invalid: shaders are being compiled.
 FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, uint64_t Threads);
 /// Pixels up to which what a path meets is near, and lights the path's own pixel alone.
-float GetNearPixels();
+float GetNearPixels(const FFrameContext& Context);
 /// Adds the pass that lights pixels by what the paths have found. Second: of the second lobe; invalid: there is none.
 void AddPathResolve(
     FFrameContext& Context, const FGBuffer& GBuffer, const FSharedPaths& Shared, FGraphTexture Output, FGraphTexture Second);

@@ -230,10 +230,10 @@ FRTStatus FSkyBake::AddPasses(FFrameContext& Context, FFrameUploads& Uploads, ui
 	Data = Slice.Address;
 	bUsed = Shown.bWritten; // also where shaders run the program: those of the frame before may stand in
 	const FSkyData Before = std::exchange(Last, Now);
-	if (Context.Facts.bSkyInPlace) { Context.SkyChange = GetSkyChange(Before, Now); }
+	if (Context.Facts.bSkyInPlace) { Context.World->SkyChange = GetSkyChange(Before, Now); }
 	if (Context.Facts.bSkyInPlace || !bRead) { return FRTStatus::Success(); }
 	if (TakesTurn(Context, ViewIndex)) { return AddMapPasses(Context, Uploads, Now); }
-	Context.SkyChange = Change;
+	Context.World->SkyChange = Change;
 	return FRTStatus::Success();
 }
 
@@ -253,7 +253,7 @@ FRTStatus FSkyBake::AddMapPasses(FFrameContext& Context, FFrameUploads& Uploads,
 		return FRTStatus::Success();
 	}
 	const FStep Step = Advance(Now, Context.View);
-	Context.SkyChange = Change = Leap * double(Step.Fade);
+	Context.World->SkyChange = Change = Leap * double(Step.Fade);
 	bUsed = true;
 	if (Step.TileCount == 0 && Step.Fade <= 0.0f) { return FRTStatus::Success(); }
 	const auto Import = [&](const FMap& Map, const char* Name) {

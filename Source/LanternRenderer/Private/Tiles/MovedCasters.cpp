@@ -203,7 +203,7 @@ bool FindLampShadowChanges(FFrameContext& Context, FShadowChanges& Out)
 
 const FMoversOfFrame& RequireMovers(FFrameContext& Context)
 {
-	FMoversOfFrame& Movers = Context.Movers;
+	FMoversOfFrame& Movers = Context.World->Movers;
 	if (std::exchange(Movers.bAsked, true)) { return Movers; }
 	const glm::dvec3 Camera = MakeGatherView(Context.View).Position;
 	const FMovedCasters::FRecent Found = Context.MovedCasters->FindMovers(Context.Scene, Camera, Context.View.DeltaSeconds);

@@ -61,7 +61,7 @@ FTransmission AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, cons
 			C.Looks = GetStorageIndex(Pass, Out.Looks);
 			C.MostLayers = static_cast<uint32_t>(CVarLayers.GetOnRenderThread());
 			C.MaxBounces = BouncesWithoutCell;
-			C.FirstVoter = CountPathVoters(*Frame) + CountBlockVoters(*Frame);
+			C.FirstVoter = Cells ? Cells->TransmissionVoters : 0;
 			C.RadianceCells = WriteRadianceGrid(Pass, Cells);
 			Pass.CountRays(uint64_t(Frame->Width) * Frame->Height); // those that look for surfaces; few find one
 			if (Dispatch.Compute) { Dispatch2D(Pass, Dispatch.Compute, C, Frame->Width, Frame->Height, RAY_QUERY_GROUP_SIZE); }

@@ -238,8 +238,41 @@ struct FToonOfFrame
 	bool IsValid() const { return Pixels.IsValid(); }
 };
 
+/// What a frame asks of the world, whatever its pixels. The first pass that asks makes it.
+struct FWorldOfFrame
+{
+	FHistoryResources* History = nullptr; ///< where caches of the world are kept
+	FLightCellsOfFrame LightCells;
+	FMoversOfFrame Movers;
+	std::shared_ptr<const FRadianceCells> RadianceCells; ///< null: none, or nobody has asked so far
+	bool bRadianceCellsAsked = false;
+	double SkyChange = 0.0; ///< share of the sky's light that a program's leap changes in this frame, beside the scene's own values
+};
+
+struct FHalfFrame; // Private/HalfFrame/HalfFrame.h
+
+/// What passes of a frame share of its pixels.
+struct FPixelsOfFrame
+{
+	FSurfaceTextures Surface;
+	FGraphTexture PixelChannels; ///< invalid: nobody has asked so far, or there is none
+	FToonOfFrame Toon;           ///< invalid: nobody has asked so far, or there is none
+	/// What r.RT.Debug.View shows instead of a signal, RGBA8_UNORM; invalid: nothing drew it.
+	FGraphTexture DebugPicture;
+	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
+	bool bShadowRaysAsked = false;
+	std::optional<FLobes> LocalLobes;            ///< of local lights: as traced, or the half frame's, filtered; nullopt: not made so far
+	std::optional<FLobes> IndirectLobes;         ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
+	std::optional<FGraphTexture> ReflectedLight; ///< the signal; nullopt: nobody has asked so far
+	std::optional<FTransmission> Transmission;   ///< nullopt: nobody has asked so far
+	std::optional<FLightMask> LightMask;         ///< nullopt: nobody has asked so far
+	FLampChangesOfFrame LampChanges;
+	/// The frame with a quarter of these pixels, for signals that do without the others. Null: nobody has asked so far.
+	std::shared_ptr<FHalfFrame> Half;
+};
+
 /// The frame as passes see it.
-struct FFrameContext
+struct FFrameContext : FPixelsOfFrame
 {
 	IRTDevice& Device;
 	FFrameGraph& Graph;
@@ -279,25 +312,10 @@ struct FFrameContext
 	/// What the host hands over beside its G-buffer, before it adds passes. Frames without FFrameFeatures::bHostShadow do not read it.
 	FHostShadow HostShadow;
 	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
-	FSurfaceTextures Surface;
-	FLightCellsOfFrame LightCells;
-	FGraphTexture PixelChannels; ///< invalid: nobody has asked so far, or there is none
-	FToonOfFrame Toon;           ///< invalid: nobody has asked so far, or there is none
+	std::shared_ptr<FWorldOfFrame> World;
+	FHistoryResources* HalfHistory = nullptr; ///< of FPixelsOfFrame::Half
+	bool bHalf = false;                       ///< this is such a frame
 	FFogOfFrame Fog;
-	/// What r.RT.Debug.View shows instead of a signal, RGBA8_UNORM; invalid: nothing drew it.
-	FGraphTexture DebugPicture;
-	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
-	bool bShadowRaysAsked = false;
-	std::optional<FLobes> LocalLobes;            ///< of local lights, not filtered; nullopt: not shaded so far
-	std::optional<FLobes> IndirectLobes;         ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
-	std::optional<FGraphTexture> ReflectedLight; ///< the signal; nullopt: nobody has asked so far
-	std::optional<FTransmission> Transmission;   ///< nullopt: nobody has asked so far
-	std::optional<FLightMask> LightMask;         ///< nullopt: nobody has asked so far
-	double SkyChange = 0.0; ///< share of the sky's light that a program's leap changes in this frame, beside the scene's own values
-	FLampChangesOfFrame LampChanges;
-	FMoversOfFrame Movers;
-	std::shared_ptr<const FRadianceCells> RadianceCells; ///< null: none, or nobody has asked so far
-	bool bRadianceCellsAsked = false;
 	FSceneTokens Tokens;
 	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
@@ -365,7 +383,10 @@ public:
 	FPlainPipelines& GetPipelines() { return Pipelines; }
 	FRefitQuality& GetRefitQuality() { return *RefitQuality; }
 	FFrameUploads& GetUploads() { return Uploads; }
-	FHistoryResources& GetHistory(uint32_t ViewIndex = 0) { return *GetView(ViewIndex).History; }
+	/// Frees what a view keeps from frame to frame. Only between frames, after WaitForAll.
+	void ClearHistories(uint32_t ViewIndex = 0);
+	/// Returns the memory of it, in bytes.
+	uint64_t GetHistoryBytes(uint32_t ViewIndex = 0);
 	FLightCells& GetLightCells(uint32_t ViewIndex = 0) { return *GetView(ViewIndex).LightCells; }
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
 	/// Returns the RTPSO of the last frame; null if it had none.
@@ -456,7 +477,7 @@ private:
 	/// What a view keeps from frame to frame.
 	struct FViewState
 	{
-		std::unique_ptr<FHistoryResources> History;
+		std::unique_ptr<FHistoryResources> History, HalfHistory; ///< HalfHistory: of FFrameContext::Half
 		std::unique_ptr<FLightCells> LightCells;
 		std::unique_ptr<FMovedCasters> Casters;
 		std::unique_ptr<FRadianceEvents> RadianceEvents;
