@@ -48,8 +48,7 @@ void AddSites(FViewConstants View, ivec2 Pixel, FGBufferPoint Point, ivec2 First
 		float Depth;
 		ivec2 Source = FindHalfSource(View, Push.Depth, HalfPixel, Depth);
 		if (Depth <= 0.0) { continue; }
-		// A tent about the middle of the 2×2 pixels, so that all of these average as many sites.
-		vec2 Step = max(1.0 - abs(vec2(Pixel) + 0.5 - vec2(HalfPixel * 2 + 1)) * 0.5, vec2(0.0));
+		vec2 Step = max(1.0 - abs(vec2(Pixel - HalfPixel * 2)) * 0.5, vec2(0.0));
 		float Weight = bPlane ? Step.x * Step.y * GetLikeness(View, Point, LoadGBufferPoint(View, Push.Normals, Source, Depth)) : 1.0;
 		if (Weight > 0.0) { AddSite(HalfPixel, Weight, Sums); }
 	}
@@ -65,7 +64,7 @@ void main()
 	if (Depth > 0.0)
 	{
 		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
-		ivec2 First = (Pixel - 1) >> 1;
+		ivec2 First = Pixel >> 1;
 		AddSites(View, Pixel, Point, First, 2, true, Sums);
 		// What lies alone on its plane takes what there is.
 		if (Sums.Weight == 0.0) { AddSites(View, Pixel, Point, First, 2, false, Sums); }

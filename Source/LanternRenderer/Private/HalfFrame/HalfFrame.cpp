@@ -65,7 +65,8 @@ FReducedTextures CreateTextures(FFrameContext& Half, const FGBuffer& From, FGBuf
 	return Textures;
 }
 
-void AddReducePass(FFrameContext& Context, const FHalfFrame& Half, const FGBuffer& GBuffer, FReducedTextures Textures, IRTPipeline* Pipeline)
+void AddReducePass(
+    FFrameContext& Context, const FHalfFrame& Half, const FGBuffer& GBuffer, FReducedTextures Textures, IRTPipeline* Pipeline)
 {
 	const FFrameContext* const Frame = &Context;
 	const uint32_t Width = Half.Context.Width, Height = Half.Context.Height;

@@ -28,7 +28,8 @@ TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
     "r.RT.Lights.Rays says.",
     {1, TILE_LIGHTS});
 TRTConsoleVariable<bool> CVarHalf("r.RT.Lights.HalfResolution", false,
-    "Light of local lights is found for one pixel of each 2 x 2, filtered there, and brought to the others along surfaces. r.RT.Lights.Rate "
+    "Light of local lights is found for one pixel of each 2 x 2, filtered there, and brought to the others along surfaces. "
+    "r.RT.Lights.Rate "
     "is then of these pixels. Does not count where an engine reads the light mask.");
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
     "The filter of diffuse light looks for changes on surfaces that move, and where a moved caster may shadow a lamp. For 0.13 s "

@@ -126,8 +126,8 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 {
 	const auto Cells = std::make_shared<FRadianceCells>();
 	Cells->Slots = GetSlots();
-	const FRadianceEvents::FFound Events =
-	    Context.RadianceEvents->Find(Context.Scene, MakeGatherView(Context.View).Position, Context.View.DeltaSeconds, Context.World->SkyChange);
+	const FRadianceEvents::FFound Events = Context.RadianceEvents->Find(
+	    Context.Scene, MakeGatherView(Context.View).Position, Context.View.DeltaSeconds, Context.World->SkyChange);
 	Cells->Grid = MakeGrid(Context, Cells->Slots, Events);
 	const uint32_t Blocks = DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2);
 	Cells->ReflectionVoters = std::max(Blocks, CountScreenProbeVoters(Context));
@@ -136,7 +136,8 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 	Cells->Grid.VoteCount = Cells->TransmissionVoters + (bTransmission ? Blocks : 0);
 	Cells->EventFrames = Events.Window;
 	FHistoryBuffer History;
-	FRTStatus Status = Context.World->History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);
+	FRTStatus Status =
+	    Context.World->History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);
 	FFrameUploads& Uploads = Context.Owner->GetUploads();
 	if (Status) { Status = Uploads.Allocate(sizeof(FRadianceGrid), Cells->GridData); }
 	if (Status && !Events.Lamps.empty())

@@ -112,9 +112,8 @@ FRayQueue CreateRayQueue(FFrameContext& Context, uint32_t MostPerPixel)
 	FRayQueue Queue;
 	Queue.MostWanted = Pixels * MostPerPixel;
 	// The half frame's pixels are few: theirs has room for all, and the demand is that of the other.
-	const double Room = Context.bHalf
-	                        ? double(Queue.MostWanted)
-	                        : std::ceil(Context.QueueDemand->GetRoom(CVarQueuePerPixel.GetOnRenderThread()) * double(Pixels));
+	const double Room = Context.bHalf ? double(Queue.MostWanted)
+	                                  : std::ceil(Context.QueueDemand->GetRoom(CVarQueuePerPixel.GetOnRenderThread()) * double(Pixels));
 	if (Context.bHalf) { Queue.Name += "Half"; }
 	Queue.Capacity =
 	    static_cast<uint32_t>(std::max(std::min({Room, double(Queue.MostWanted), double(MaxCapacity)}), 1.0)); // buffers have a size
