@@ -38,6 +38,7 @@ void main()
 	Inputs.UV0 = InUV.xy;
 	Inputs.UV1 = InUV.zw;
 	Inputs.Color = InColor;
+	Inputs.Footprint = 0.0;
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
 	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
 	vec3 Ng = NormalizeOr(cross(dFdx(InRelative), dFdy(InRelative)), Surface.Normal);

@@ -13,6 +13,7 @@ struct FMaterialInputs
 	vec4 Tangent; // w: sign of the bitangent; 0: the vertices have no tangents
 	vec2 UV0, UV1;
 	vec4 Color;
+	float Footprint; // of a ray: width of what a texture averages, in texture coordinates UV0; 0: its finest level
 };
 
 // Returns the three vertex indices of a triangle. There is no branch on the index width, so that any-hit shaders can issue
@@ -39,6 +40,7 @@ FMaterialInputs UnpackVertex(FVertexAttributes V, uint SectionFlags)
 	Inputs.UV0 = V.UV0;
 	Inputs.UV1 = V.UV1;
 	Inputs.Color = unpackUnorm4x8(V.Color);
+	Inputs.Footprint = 0.0;
 	return Inputs;
 }
 
@@ -56,6 +58,7 @@ FMaterialInputs FetchTextureInputs(FSectionData Section, uint Primitive, vec2 Ba
 	FMaterialInputs Inputs;
 	Inputs.Normal = vec3(0.0);
 	Inputs.Tangent = vec4(0.0);
+	Inputs.Footprint = 0.0;
 	if ((Section.Flags & SECTION_STREAMS) != 0u)
 	{
 		vec4 Values[STREAM_COLORS + 1u];
@@ -152,6 +155,7 @@ FMaterialInputs FetchStreamInputs(FSectionData Section, uvec3 Triangle, vec3 Wei
 	Inputs.UV0 = Values[STREAM_UV0].xy;
 	Inputs.UV1 = Values[STREAM_UV1].xy;
 	Inputs.Color = Values[STREAM_COLORS];
+	Inputs.Footprint = 0.0;
 	return Inputs;
 }
 
@@ -171,6 +175,7 @@ FMaterialInputs FetchMaterialInputs(FSectionData Section, uint Primitive, vec2 B
 	Inputs.UV0 = Weights.x * Inputs0.UV0 + Weights.y * Inputs1.UV0 + Weights.z * Inputs2.UV0;
 	Inputs.UV1 = Weights.x * Inputs0.UV1 + Weights.y * Inputs1.UV1 + Weights.z * Inputs2.UV1;
 	Inputs.Color = Weights.x * Inputs0.Color + Weights.y * Inputs1.Color + Weights.z * Inputs2.Color;
+	Inputs.Footprint = 0.0;
 	return Inputs;
 }
 
@@ -179,6 +184,26 @@ FMaterialInputs FetchMaterialInputs(FSectionData Section, uint Primitive, vec2 B
 	vec3 TriangleNormal = vec3(0.0);
 	if ((Section.Flags & SECTION_STREAMS) != 0u) { TriangleNormal = FetchTriangleNormal(Section, Primitive); }
 	return FetchMaterialInputs(Section, Primitive, Barycentrics, TriangleNormal);
+}
+
+// Returns twice the area of a triangle in texture coordinates UV0.
+float FetchUVArea(FSectionData Section, uint Primitive)
+{
+	uvec3 Triangle = FetchTriangle(Section, Primitive);
+	vec2 UV[3];
+	if ((Section.Flags & SECTION_STREAMS) != 0u)
+	{
+		[[dont_unroll]] for (uint Corner = 0u; Corner < 3u; ++Corner)
+		{
+			UV[Corner] = InterpolateStream(Section, STREAM_UV0, uvec3(Triangle[Corner]), vec3(1.0, 0.0, 0.0), vec4(0.0)).xy;
+		}
+	}
+	else
+	{
+		FVertexUVRef V = FVertexUVRef(Section.Attributes + 8u); // bytes to FVertexAttributes::UV0
+		for (uint Corner = 0u; Corner < 3u; ++Corner) { UV[Corner] = V.Data[Triangle[Corner]].UV; }
+	}
+	return abs(determinant(mat2(UV[1] - UV[0], UV[2] - UV[0])));
 }
 
 // Intersects a ray with the plane of a triangle, in object space (Möller and Trumbore 1997). The result's x is the

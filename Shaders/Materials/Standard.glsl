@@ -2,7 +2,7 @@
 // defines the material of a surface: the raster G-buffer, the hit groups and the alpha test all call it.
 //
 // MATERIAL_IMPLICIT_LOD: textures are sampled with the level of detail of screen-space derivatives (fragment shaders).
-// Otherwise they are sampled at the finest level.
+// Otherwise they are sampled at the level of FMaterialInputs::Footprint.
 #ifndef LANTERN_STANDARD_MATERIAL_GLSL
 #define LANTERN_STANDARD_MATERIAL_GLSL
 
@@ -26,11 +26,11 @@ struct FMaterialSurface
 const float LeastSolidOpacity = 1.0 - 0.5 / 255.0;
 
 #ifdef MATERIAL_IMPLICIT_LOD
-#define SampleMaterialTexture(Slot, UV)                                                                                \
+#define SampleMaterialTexture(Slot, UV, Level)                                                                         \
 	texture(sampler2D(Textures[nonuniformEXT(SLOT_TEXTURE(Slot))], Samplers[nonuniformEXT(SLOT_SAMPLER(Slot))]), UV)
 #else
-#define SampleMaterialTexture(Slot, UV)                                                                                \
-	textureLod(sampler2D(Textures[nonuniformEXT(SLOT_TEXTURE(Slot))], Samplers[nonuniformEXT(SLOT_SAMPLER(Slot))]), UV, 0.0)
+#define SampleMaterialTexture(Slot, UV, Level)                                                                         \
+	textureLod(sampler2D(Textures[nonuniformEXT(SLOT_TEXTURE(Slot))], Samplers[nonuniformEXT(SLOT_SAMPLER(Slot))]), UV, Level)
 #endif
 
 // Slot: TEXTURE_….
@@ -45,9 +45,19 @@ vec2 MaterialUV(FMaterialData Material, FMaterialInputs Inputs, uint Slot)
 	return TransformUV(Material, (Material.UVSets & (1u << Slot)) != 0u ? Inputs.UV1 : Inputs.UV0, Slot);
 }
 
+// Nothing tells how large the second set of texture coordinates is.
+float TextureLevel(FMaterialData Material, FMaterialInputs Inputs, uint Slot)
+{
+	if (Inputs.Footprint <= 0.0 || (Material.UVSets & (1u << Slot)) != 0u) { return 0.0; }
+	vec4 T = Material.UVTransform[Slot];
+	vec2 Size = vec2(textureSize(Textures[nonuniformEXT(SLOT_TEXTURE(Material.Textures[Slot]))], 0));
+	float Scale = Size.x * Size.y * abs(T.x * T.w - T.y * T.z);
+	return max(log2(Inputs.Footprint) + 0.5 * log2(max(Scale, 1.0e-20)), 0.0);
+}
+
 vec4 MaterialTexture(FMaterialData Material, FMaterialInputs Inputs, uint Slot)
 {
-	return SampleMaterialTexture(Material.Textures[Slot], MaterialUV(Material, Inputs, Slot));
+	return SampleMaterialTexture(Material.Textures[Slot], MaterialUV(Material, Inputs, Slot), TextureLevel(Material, Inputs, Slot));
 }
 
 bool HasTexture(FMaterialData Material, uint Slot) { return Material.Textures[Slot] != NO_TEXTURE; }
@@ -81,7 +91,7 @@ bool IsStandardHitCutAway(FMaterialRef Materials, FSectionData Section, uint Pri
 		Opacity *= FetchVertexAlpha(Section, Triangle, Barycentrics);
 	}
 #endif
-	if (HasTexture(Material, TEXTURE_BASE_COLOR)) { Opacity *= SampleMaterialTexture(Material.Textures[TEXTURE_BASE_COLOR], UV).a; }
+	if (HasTexture(Material, TEXTURE_BASE_COLOR)) { Opacity *= SampleMaterialTexture(Material.Textures[TEXTURE_BASE_COLOR], UV, 0.0).a; }
 	return Opacity < Material.AlphaCutoff;
 }
 

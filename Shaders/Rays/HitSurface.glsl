@@ -4,6 +4,7 @@
 
 #include "../Library/ObjectChannels.glsl"
 #include "MaterialPayload.glsl"
+#include "RayCone.glsl"
 
 // Where a ray has met the surface of an object.
 struct FHitPlace
@@ -13,6 +14,8 @@ struct FHitPlace
 	vec3 ObjectNormal; // geometric, object space, of any length
 	vec3 Direction;    // of the ray
 	mat4x3 ObjectToWorld, WorldToObject;
+	vec2 Cone;         // RayCone of the ray
+	float UVArea;      // FetchUVArea; not read if Cone is 0
 };
 
 // Inputs: object space. Material: its Emissive is what is asked for.
@@ -21,11 +24,17 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	Inputs.Normal = (Inputs.Normal * Place.WorldToObject).xyz;
 	mat3 ObjectToWorld = mat3(Place.ObjectToWorld);
 	Inputs.Tangent.xyz = ObjectToWorld * Inputs.Tangent.xyz;
-	if (determinant(ObjectToWorld) < 0.0) { Inputs.Tangent.w = -Inputs.Tangent.w; } // the normal keeps the object's outside
+	float Volume = determinant(ObjectToWorld);
+	if (Volume < 0.0) { Inputs.Tangent.w = -Inputs.Tangent.w; } // the normal keeps the object's outside
+	// The inverse transpose keeps the object's own outside, also where the transform mirrors.
+	vec3 Area = (Place.ObjectNormal * Place.WorldToObject).xyz;
+	if (Place.Cone != vec2(0.0))
+	{
+		Inputs.Footprint = GetConeFootprint(Place.Cone, Place.Distance, Area * Volume, Place.UVArea, Place.Direction);
+	}
 	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
 
-	// The inverse transpose keeps the object's own outside, also where the transform mirrors.
-	vec3 Ng = normalize((Place.ObjectNormal * Place.WorldToObject).xyz);
+	vec3 Ng = normalize(Area);
 	bool bFront = dot(Ng, Place.Direction) < 0.0;
 	bool bCulledSide = !bFront && (Section.Flags & SECTION_DOUBLE_SIDED) == 0u;
 #ifdef HAS_TRANSMISSION

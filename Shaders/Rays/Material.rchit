@@ -20,6 +20,7 @@ void main()
 {
 	FSceneConstants Scene = FSceneRef(Pass.Scene).Data;
 	CountStandIn(Scene.StandInHits, Section.Material);
+	vec2 Cone = unpackHalf2x16(Payload.W2);
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
 #ifdef HAS_LIGHT_EMISSION
 	if (Payload.W1 == ASKS_FOR_LIGHT) { Material.Emissive = Material.LightEmissive; }
@@ -27,7 +28,8 @@ void main()
 #ifdef PROCEDURAL
 	vec3 TriangleHit = vec3(gl_HitTEXT, 0.0, 0.0);
 	vec3 ObjectNormal = OctDecode(NormalAttribute);
-	FMaterialInputs Inputs = FMaterialInputs(ObjectNormal, vec4(0.0), vec2(0.0), vec2(0.0), vec4(1.0));
+	FMaterialInputs Inputs = FMaterialInputs(ObjectNormal, vec4(0.0), vec2(0.0), vec2(0.0), vec4(1.0), 0.0);
+	const float UVArea = 0.0;
 #else
 	vec3 TriangleHit = vec3(gl_HitTEXT, Barycentrics), P0, P1, P2;
 	FetchPositions(Section, gl_PrimitiveID, P0, P1, P2); // once: it is much code
@@ -37,7 +39,8 @@ void main()
 		TriangleHit = IntersectTriangle(P0, P1, P2, gl_ObjectRayOriginEXT, gl_ObjectRayDirectionEXT);
 	}
 	FMaterialInputs Inputs = FetchMaterialInputs(Section, gl_PrimitiveID, TriangleHit.yz, ObjectNormal);
+	float UVArea = Cone != vec2(0.0) ? FetchUVArea(Section, gl_PrimitiveID) : 0.0;
 #endif
-	FHitPlace Place = FHitPlace(gl_InstanceCustomIndexEXT, TriangleHit.x, ObjectNormal, gl_WorldRayDirectionEXT, gl_ObjectToWorldEXT, gl_WorldToObjectEXT);
+	FHitPlace Place = FHitPlace(gl_InstanceCustomIndexEXT, TriangleHit.x, ObjectNormal, gl_WorldRayDirectionEXT, gl_ObjectToWorldEXT, gl_WorldToObjectEXT, Cone, UVArea);
 	Payload = PackHit(MakeHitSurface(Scene, Section, Material, Inputs, Place));
 }

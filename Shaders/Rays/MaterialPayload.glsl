@@ -31,6 +31,8 @@ const float MaxEmission = 65504.0 / EmissionScale; // nits
 // What a ray sets W1 to before it is traced, if it looks for light: FMaterialData::LightEmissive. HAS_LIGHT_EMISSION only.
 #define ASKS_FOR_LIGHT 0x4c494748u
 
+// A ray sets W2 to the halves of its RayCone (RayCone.glsl), or to 0 for textures' finest levels.
+
 #define HIT_CULLED_SIDE 1u  // the back of a single-sided surface: camera rays do not see it
 #define HIT_CHARACTER 2u    // characters do not shadow the surface
 #define HIT_FOLIAGE 4u      // alpha-tested and seen from both sides

@@ -9,6 +9,7 @@
 #include "QueryHit.glsl"
 #else
 #include "MaterialPayload.glsl"
+#include "RayCone.glsl"
 #include "ShadowPayload.glsl"
 
 layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
@@ -41,6 +42,7 @@ FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 D
 #ifdef HAS_LIGHT_EMISSION
 	MaterialPayload.W1 = Shows == SHOWS_NOTHING ? ASKS_FOR_LIGHT : 0u;
 #endif
+	MaterialPayload.W2 = packHalf2x16(RayCone);
 #ifdef REORDER
 	// Threads that hit alike run the hit's shader together.
 	hitObjectNV Hit;

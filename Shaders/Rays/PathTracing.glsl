@@ -198,6 +198,7 @@ bool TakePassage(FSceneConstants Scene, bool bShown, inout FMaterialHit Hit, ino
 	vec3 Side = Passage.bThrough ? -Hit.GeometricNormal : Hit.GeometricNormal;
 	Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, Side, Scene.ObjectReach, Hit.Distance);
 	Direction = Passage.Direction;
+	WidenRayCone(Hit.Distance);
 	Hit = TraceMaterial(Scene, Passages.Mask, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 	if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= Passages.EmissionShare; }
 	return true;
@@ -333,6 +334,8 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		ScatterPassages(Passages);
 #endif
 		SEES_HITS(bSeesHits && isinf(Sample.Pdf));
+		if (isinf(Sample.Pdf)) { WidenRayCone(Hit.Distance); }
+		else { RayCone = vec2(0.0); }
 		Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 #ifdef KEEPS_HIT
 		bMirrored = bMirrored && isinf(Sample.Pdf) && SpecularProbability(Brdf, LocalV) >= 1.0; // else the choice is chance
@@ -407,6 +410,7 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	vec3 Direction = Gathered.Direction = Basis * Sample.Direction;
 	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Gathered; }
 	SEES_HITS(true);
+	RayCone = FirstRayCone;
 	FMaterialHit Hit = TraceMaterial(Scene, GatherMask, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 	NOTE_END(PATH_END_SKY);
 	vec3 Radiance = vec3(0.0);

@@ -35,6 +35,8 @@ FMaterialHit QueryMaterialHit(FSceneConstants Scene, uint Mask, vec3 Origin, vec
 		                          rayQueryGetIntersectionObjectRayDirectionEXT(RayQuery, true));
 	}
 	Place.Distance = TriangleHit.x;
+	Place.Cone = unpackHalf2x16(packHalf2x16(RayCone)); // as pipelines have it
+	Place.UVArea = RayCone != vec2(0.0) ? FetchUVArea(Section, Primitive) : 0.0;
 	FMaterialInputs Inputs = FetchMaterialInputs(Section, Primitive, TriangleHit.yz, Place.ObjectNormal);
 	return MakeHitSurface(Scene, Section, Material, Inputs, Place);
 }

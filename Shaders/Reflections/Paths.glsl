@@ -1,7 +1,7 @@
 // Reflections of listed pixels: a path through the specular lobe of each. Smooth surfaces show what they mirror by light sampling, and
 // further surfaces by radiance cells; rough ones show cells. The ray-tracing pipeline and the ray-query path share it.
 // RADIANCE_CELLS: there are cells. Else paths go on for as many bounces as they may.
-// COUNTS_ENDS: what becomes of paths is counted.
+// COUNTS_ENDS: what becomes of paths is counted. NO_RAY_CONES: see RayCone.glsl.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
 #ifndef LANTERN_REFLECTION_PATHS_GLSL
 #define LANTERN_REFLECTION_PATHS_GLSL
@@ -58,6 +58,7 @@ void ReflectPixel(uint Number)
 	bLightsHits = Material.x < Push.LitRoughness;
 	bKeepsEmission = bMirror;
 	EmissionRoughness = Push.EmissionRoughness;
+	FirstRayCone = MakePixelCone(View, dot(View.CameraForward, Point.Relative), bMirror ? 0.0 : Lobe.Alpha);
 #ifdef COUNTS_ENDS
 	CountPixel(bMirror, bLightsHits);
 #endif

@@ -18,6 +18,7 @@ void main()
 	Inputs.UV0 = InUV.xy;
 	Inputs.UV1 = InUV.zw;
 	Inputs.Color = InColor;
+	Inputs.Footprint = 0.0;
 	FMaterialData Material = FMaterialRef(FSceneRef(Push.Pass.Scene).Data.Materials).Data[InMaterial];
 	if (EvaluateMaterial(Material, Inputs, 0u).Opacity < Material.AlphaCutoff) { discard; }
 }

@@ -34,6 +34,7 @@ bool FindLayer(FSceneConstants Scene, inout vec3 Origin, vec3 Direction, inout f
 		Backs += bBack ? 1u : 0u;
 		Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
 		Left -= Hit.Distance;
+		WidenRayCone(Hit.Distance);
 	}
 	return false;
 }

@@ -107,6 +107,8 @@ vec3 FollowPart(FSceneConstants Scene, uint Part, FMaterialHit Hit, FCameraRay R
 		Direction = Passage.Direction;
 		FirstAbsorption = Passage.bThrough != ((Hit.Flags & HIT_INSIDE) != 0u) ? Hit.Absorption : vec3(0.0);
 		FirstSlope = abs(dot(Direction, Hit.GeometricNormal));
+		float Alpha = Hit.Roughness * Hit.Roughness;
+		RayCone = MakePixelCone(FViewRef(Push.Pass.View).Data, Ray.Length + Hit.Distance, Alpha < MinAlpha ? 0.0 : Alpha);
 		Next = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, SHOWS_ALL);
 	}
 	vec3 L = FollowPath(Scene, Next, Origin, Direction, uintBitsToFloat(0x7f800000u), 1.0, 1u, Push.MaxBounces, true, Random);
@@ -179,6 +181,7 @@ void ShowLayers(uvec2 Pixel)
 	for (uint Layer = 0u; Layer < Push.MostLayers; ++Layer)
 	{
 		float LeftBefore = Ray.Left;
+		RayCone = MakePixelCone(View, Ray.Length, 0.0);
 		if (!FindLayer(Scene, Ray.Origin, Ray.Direction, Ray.Left, Hit)) { break; }
 		Ray.Length += Depth > 0.0 ? LeftBefore - Ray.Left : 0.0; // backs that were passed
 #ifdef RADIANCE_CELLS

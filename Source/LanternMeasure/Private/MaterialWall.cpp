@@ -29,6 +29,7 @@ void main()
 	FViewConstants View = FViewRef(Pass.View).Data;
 	vec3 Origin = View.CameraPosition, Direction = normalize(CameraRay(View, vec2(gl_LaunchIDEXT.xy) + 0.5));
 #endif
+	Payload.W2 = 0u;
 	traceRayEXT(Scenes[Scene.Tlas], 0u, MASK_VISIBLE, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, Origin, 0.0, Direction, 1.0e30, 0);
 	vec4 Color = Payload.Distance < 0.0 ? vec4(0.0, 0.0, 0.0, -1.0) : vec4(UnpackHit(Payload).BaseColor, Payload.Distance);
 #ifdef CALLABLES

@@ -14,6 +14,9 @@ namespace
 TRTConsoleVariable<bool> CVarReorder("r.RT.Reorder", false,
     "Sorts threads by what their rays hit before material shaders run (shader execution reordering), in the reference, diffuse global "
     "illumination and reflections. Needs a device that can.");
+TRTConsoleVariable<bool> CVarCones("r.RT.Rays.Cones", true,
+    "Mirrors, and what light shines through, show textures at the level of detail of what a pixel covers there. If off, at the finest one, "
+    "which shimmers.");
 TRTConsoleVariable<int32_t> CVarMaterials("r.RT.GI.Materials", 0,
     "What indirect light (r.RT.GI 2 and 3) sees of materials with a program of their own. 0: what their standard parameters say, by one "
     "hit shader for all. Rays then take no longer because there are many. What cameras and mirrors see runs the program. 1: the program, "
@@ -27,6 +30,11 @@ void SetHitPrograms(EHitPrograms Wanted, FPassRays& InOut)
 	InOut.HitPrograms = Wanted;
 	if (Wanted == EHitPrograms::Standard) { InOut.Defines.emplace_back("STANDARD_HITS", "1"); }
 	if (Wanted == EHitPrograms::OwnWhereSeen) { InOut.Defines.emplace_back("STANDARD_HITS_UNSEEN", "1"); }
+}
+
+void AddRayConeDefine(FShaderDefines& InOut)
+{
+	if (!CVarCones.GetOnRenderThread()) { InOut.emplace_back("NO_RAY_CONES", "1"); }
 }
 
 void AddReorderDefine(const FRTCapabilities& Capabilities, FShaderDefines& Defines)

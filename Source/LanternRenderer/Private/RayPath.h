@@ -70,6 +70,8 @@ ERayPath ChoosePipelinePath(const FPassQuery& Query, const std::string& Variable
 /// Adds the define REORDER for ray generation shaders whose rays run material shaders, if r.RT.Reorder is on and the device can. Logs
 /// once if it cannot.
 void AddReorderDefine(const FRTCapabilities& Capabilities, FShaderDefines& Defines);
+/// Adds what shaders whose rays have cones are compiled with (Shaders/Rays/RayCone.glsl).
+void AddRayConeDefine(FShaderDefines& InOut);
 
 /// Sets whose programs the rays of a pipeline run, unless r.RT.GI.Materials says that each material runs its own. Ray queries know the
 /// standard program alone.

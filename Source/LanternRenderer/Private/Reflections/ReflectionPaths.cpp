@@ -240,6 +240,7 @@ FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const F
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
 	if (ChooseRadianceCellPath(Query) != ERayPath::None) { AddRadianceCellDefines(Rays.Defines); }
 	if (Rays.Path == ERayPath::Pipeline) { AddReorderDefine(Query.Capabilities, Rays.Defines); }
+	AddRayConeDefine(Rays.Defines);
 	if (ArePathEndsCounted()) { Rays.Defines.emplace_back("COUNTS_ENDS", "1"); }
 	SetHitPrograms(EHitPrograms::OwnWhereSeen, Rays);
 	Rays.bShadesHits = true;

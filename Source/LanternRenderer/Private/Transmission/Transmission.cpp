@@ -81,6 +81,7 @@ FPassRays ChooseTransmissionRays(const FPassQuery& Query)
 	Rays.Defines = MakePathDefines(Query.Facts);
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
 	if (ChooseRadianceCellPath(Query) != ERayPath::None) { AddRadianceCellDefines(Rays.Defines); }
+	AddRayConeDefine(Rays.Defines);
 	if (Rays.Path == ERayPath::Pipeline) { AddReorderDefine(Query.Capabilities, Rays.Defines); }
 	SetHitPrograms(EHitPrograms::OwnWhereSeen, Rays);
 	Rays.bShadesHits = true;
