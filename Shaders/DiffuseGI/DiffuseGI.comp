@@ -4,16 +4,6 @@
 #define RAY_QUERY
 #include "DiffuseGI.glsl"
 
-#ifdef DEFERRED_PATHS
-layout(local_size_x = RAY_QUEUE_GROUP_SIZE) in;
-
-void main()
-{
-	uvec2 Thread;
-	uint Number = gl_GlobalInvocationID.y * (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) + gl_GlobalInvocationID.x;
-	if (FindDeferred(Number, Thread)) { GatherPaths(Thread); }
-}
-#else
 layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE) in;
 
 void main()
@@ -26,4 +16,3 @@ void main()
 	if (all(lessThan(gl_GlobalInvocationID.xy, TurnThreads(uvec2(View.Width, View.Height))))) { GatherPaths(gl_GlobalInvocationID.xy); }
 #endif
 }
-#endif

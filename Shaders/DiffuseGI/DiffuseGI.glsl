@@ -1,12 +1,12 @@
 // Diffuse global illumination by brute force: traces paths from every pixel, cosine-weighted about its shading normal. The ray-tracing
 // pipeline and the ray-query path share it.
 // RADIANCE_CELLS: paths end in radiance cells. One pixel of four votes for the places of cells, in turn.
-// DEFERS_PATHS: paths that meet no cell are left to a second launch, of DEFERRED_PATHS, which has a thread for each of their pixels.
+// DEFERS_PATHS: paths that meet no cell are left to a second launch, of DEFERRED_PATHS, which has a thread for each of their pixels. Its files
+// are Deferred.rgen and Deferred.comp: where one variant of a file serves for another, neither launch serves for the other.
 // GUIDED_PATHS: see PathGuide.glsl. Each thread leaves a record of its first path.
 // SCREEN_PROBES: paths start at screen probes instead of pixels.
 // SHARED_PATHS: paths are left for all pixels around, which a pass behind them lights.
 // SECOND_LOBE: the paths light the specular lobe as well (ESignal::RoughSpecular).
-// HALF_FRAME: pixels are those of the half frame, and each path votes.
 // CHECKERBOARD, QUARTER: see Rate.glsl. BruteForce/Fill.comp fills the other pixels.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
 #ifndef LANTERN_DIFFUSE_GI_GLSL
@@ -33,18 +33,15 @@ void BeginLookUps(FViewConstants View, uvec2 Pixel)
 {
 	if (Push.RadianceCells == FAddress(0)) { return; }
 	FAddress Votes = FRadianceGridRef(Push.RadianceCells).Data.Votes;
-#ifdef HALF_FRAME
-	uint Number = Pixel.y * View.Width + Pixel.x; // of its own
-#else
-	uint Number = VoterOfPixel(View, Pixel);
-#endif
-#if defined(QUARTER) || defined(HALF_FRAME)
+	bool bHalf = Push.bHalf != 0u; // its pixels have voters of their own
+	uint Number = bHalf ? Pixel.y * View.Width + Pixel.x : VoterOfPixel(View, Pixel);
+#if defined(QUARTER)
 	bool bVotes = true;
 #elif defined(CHECKERBOARD)
 	uint Rows = min(View.Height - (Pixel.y & ~1u), 2u); // fewer at the border
-	bool bVotes = (Pixel.y & 1u) == min((View.FrameIndex >> 1u) & 1u, Rows - 1u);
+	bool bVotes = bHalf || (Pixel.y & 1u) == min((View.FrameIndex >> 1u) & 1u, Rows - 1u);
 #else
-	bool bVotes = VotesInTurn(View, Pixel);
+	bool bVotes = bHalf || VotesInTurn(View, Pixel);
 #endif
 #ifdef DEFERRED_PATHS
 	bVotes = false; // the first launch has

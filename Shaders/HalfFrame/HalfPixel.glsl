@@ -6,8 +6,8 @@
 
 uvec2 HalfSizeOf(FViewConstants View) { return (uvec2(View.Width, View.Height) + 1u) >> 1u; }
 
-// Returns the first pixel, so that motion between frames is that of the pixels, or the first one that shows a surface: a wire before the sky
-// is not lost. OutDepth: of it; 0: the sky.
+// Returns the first pixel, so that motion between frames is that of the pixels. If that one shows the sky, it is the first of the others that
+// does not: a wire before the sky is not lost. OutDepth: of it; 0: the sky.
 ivec2 FindHalfSource(FViewConstants View, uint Depths, ivec2 HalfPixel, out float OutDepth)
 {
 	ivec2 First = HalfPixel * 2;

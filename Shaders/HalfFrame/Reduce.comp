@@ -19,7 +19,7 @@ void main()
 	if (any(greaterThanEqual(uvec2(HalfPixel), HalfSizeOf(View)))) { return; }
 	float Depth;
 	ivec2 Source = FindHalfSource(View, Push.From.Depth, HalfPixel, Depth);
-	imageStore(Images[Push.To.Depth], HalfPixel, vec4(Depth));
+	if (Push.To.Depth != NO_TEXTURE) { imageStore(Images[Push.To.Depth], HalfPixel, vec4(Depth)); }
 	Copy(Push.From.Normals, Push.To.Normals, Source, HalfPixel);
 	Copy(Push.From.BaseColor, Push.To.BaseColor, Source, HalfPixel);
 	Copy(Push.From.Material, Push.To.Material, Source, HalfPixel);

@@ -1,5 +1,5 @@
-// Gives each pixel what the pixels of the half frame around it have found, those on its plane alone, and the more the more alike their shading
-// normals are (Kopf et al. 2007, "Joint Bilateral Upsampling").
+// Gives each pixel what the pixels of the half frame around it have found (Kopf et al. 2007, "Joint Bilateral Upsampling"). Those on its plane
+// count alone, and the more, the more alike their shading normals are.
 // SECOND_LOBE: two signals. NO_PLANES: planted fault (r.RT.Debug.HalfFrame.Planes).
 #version 460
 #include "../Shared/HalfFrameTypes.h"
@@ -38,18 +38,18 @@ float GetLikeness(FViewConstants View, FGBufferPoint Point, FGBufferPoint Site)
 #endif
 }
 
-// Adds the sites within a square that show a surface: those of the pixel's plane, or, without bPlane, all alike.
-void AddSites(FViewConstants View, ivec2 Pixel, FGBufferPoint Point, ivec2 First, int Side, bool bPlane, inout FSums Sums)
+// Adds the sites around a pixel that show a surface: those of its plane, or, without bPlane, all alike.
+void AddSites(FViewConstants View, ivec2 Pixel, FGBufferPoint Point, bool bPlane, inout FSums Sums)
 {
-	for (int I = 0; I < Side * Side; ++I)
+	for (int I = 0; I < 4; ++I)
 	{
-		ivec2 HalfPixel = First + ivec2(I % Side, I / Side);
-		if (any(lessThan(HalfPixel, ivec2(0))) || any(greaterThanEqual(uvec2(HalfPixel), HalfSizeOf(View)))) { continue; }
-		float Depth;
+		ivec2 HalfPixel = (Pixel >> 1) + ivec2(I & 1, I >> 1);
+		vec2 Step = max(1.0 - abs(vec2(Pixel - HalfPixel * 2)) * 0.5, vec2(0.0));
+		float Weight = bPlane ? Step.x * Step.y : 1.0, Depth;
+		if (Weight == 0.0 || any(greaterThanEqual(uvec2(HalfPixel), HalfSizeOf(View)))) { continue; }
 		ivec2 Source = FindHalfSource(View, Push.Depth, HalfPixel, Depth);
 		if (Depth <= 0.0) { continue; }
-		vec2 Step = max(1.0 - abs(vec2(Pixel - HalfPixel * 2)) * 0.5, vec2(0.0));
-		float Weight = bPlane ? Step.x * Step.y * GetLikeness(View, Point, LoadGBufferPoint(View, Push.Normals, Source, Depth)) : 1.0;
+		if (bPlane) { Weight *= GetLikeness(View, Point, LoadGBufferPoint(View, Push.Normals, Source, Depth)); }
 		if (Weight > 0.0) { AddSite(HalfPixel, Weight, Sums); }
 	}
 }
@@ -64,11 +64,8 @@ void main()
 	if (Depth > 0.0)
 	{
 		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
-		ivec2 First = Pixel >> 1;
-		AddSites(View, Pixel, Point, First, 2, true, Sums);
-		// What lies alone on its plane takes what there is.
-		if (Sums.Weight == 0.0) { AddSites(View, Pixel, Point, First, 2, false, Sums); }
-		if (Sums.Weight == 0.0) { AddSites(View, Pixel, Point, First - 1, 4, false, Sums); }
+		AddSites(View, Pixel, Point, true, Sums);
+		if (Sums.Weight == 0.0) { AddSites(View, Pixel, Point, false, Sums); } // alone on its plane: its 2×2 has a site at least
 	}
 	for (int I = 0; I < 2; ++I)
 	{

@@ -23,7 +23,7 @@ struct FBruteForceConstants
 	FAddress ProbeGrid;   // FScreenProbeGrid, for shaders with SCREEN_PROBES
 	FAddress Shared;  // FSharedPath[] of the first launch's threads, row by row, for shaders with SHARED_PATHS
 	uint ToonPixels;  // sampled index of what ToonSurface.comp writes, or NO_TEXTURE: see ChooseGatherMask
-	uint Pad;
+	uint bHalf;       // pixels are those of the half frame
 };
 LANTERN_ASSERT_SIZE(FBruteForceConstants, 112);
 

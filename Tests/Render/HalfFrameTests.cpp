@@ -1,5 +1,5 @@
-// Signals of the half frame (r.RT.Lights.HalfResolution, r.RT.GI.HalfResolution) against those of all pixels: views, edges, sizes that are odd,
-// motion, paths that agree, poison, and planted faults.
+// Signals of the half frame (r.RT.Lights.HalfResolution, r.RT.GI.HalfResolution) against those of all pixels. Views, edges, odd sizes, motion,
+// paths that agree, poison, and planted faults.
 #include <algorithm>
 #include <cmath>
 

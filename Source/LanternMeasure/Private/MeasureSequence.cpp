@@ -48,6 +48,7 @@ double SumPasses(const std::vector<FPassTiming>& Passes, T&& IsWanted)
 bool IsOfSignal(std::string_view Pass, ESignal Signal)
 {
 	const FSignalInfo& Info = GetSignalInfo(Signal);
+	if (Pass == "HalfFrame") { return true; } // runs for signals of half the resolution alone
 	return Pass.starts_with(Info.Pass) || (*Info.SharedPass && Pass.starts_with(Info.SharedPass)); // "": all passes are the frame's
 }
 

@@ -138,7 +138,12 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		if (Rays.Path == ERayPath::Pipeline && Rays.bTraces)
 		{
 			const std::string RayGen = GetRayShaderPath(Pass.Signal, Rays, ".rgen");
-			if (Rays.bRadianceCells) { Collector.Add(EPassRayGen::DeferredPaths, MakeDeferredRays(Rays), RayGen); }
+			if (Rays.bRadianceCells)
+			{
+				FPassRays Deferred = MakeDeferredRays(Rays);
+				const std::string Second = GetRayShaderPath(Pass.Signal, Deferred, ".rgen");
+				Collector.Add(EPassRayGen::DeferredPaths, std::move(Deferred), Second);
+			}
 			Collector.Add(Pass.Signal, std::move(Rays), RayGen);
 		}
 	});

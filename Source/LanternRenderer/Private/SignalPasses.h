@@ -32,7 +32,7 @@ struct FSignalPass
 	/// are ready: Dispatch has them. False: it asks for nothing, because its other shaders are not. Null: it never asks.
 	bool (*AskShadowRays)(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut) = nullptr;
 	/// Whether the half frame asks for them (HalfFrame/HalfFrame.h). Null: the whole one does.
-	bool (*IsHalf)(const FSceneFacts& Facts) = nullptr;
+	bool (*IsHalf)(const FFrameContext& Context) = nullptr;
 	/// The signal holds what is not in the light mask, if a frame has one. The first such row asks for the rays of the mask.
 	bool bBesideLightMask = false;
 	/// Its surfaces are those of RequireToonSurface (Toon/Toon.h).

@@ -1,4 +1,4 @@
-// The half frame on the mock: what it adds, that signals share it, and that it adds nothing where no signal is of half the resolution.
+// The half frame on the mock: what it adds, and that signals share it. It adds nothing where no signal is of half the resolution.
 #include "Support/RendererTestTools.h"
 #include "Support/WaitTools.h"
 
@@ -36,13 +36,18 @@ TEST_F(FHalfFrameMockTest, WithoutASignalOfItsThereIsNone)
 	Set("r.RT.Lights", "0");
 	Render();
 	EXPECT_FALSE(HasPass("HalfFrame")) << "there are no lamps' shadows";
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("HalfFrame/"))));
+	Open();
+	Set("r.RT.Lights", "1");
+	LoadAndRender({.bSky = true});
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("HalfFrame/")))) << "there are no lamps";
 }
 
 TEST_F(FHalfFrameMockTest, LampsHaveAQueueOfTheirOwn)
 {
 	Set("r.RT.Lights.HalfResolution", "1");
 	LoadAndRender({.bLights = true});
-	for (const char* const Pass : {"HalfFrame", "ShadowHalfLights", "ShadowHalfRays", "LocalDiffuseUpsample"})
+	for (const char* const Pass : {"HalfFrame", "ShadowHalfLights", "ShadowHalfRays", "ShadowLightsUpsample"})
 	{
 		EXPECT_EQ(CountPass(Pass), 1u) << Pass;
 	}
@@ -61,7 +66,7 @@ TEST_F(FHalfFrameMockTest, SignalsShareIt)
 	Set("r.RT.GI.HalfResolution", "1");
 	Set("r.RT.GI", "3");
 	LoadAndRender({.bLights = true, .bSky = true});
-	for (const char* const Pass : {"HalfFrame", "LocalDiffuseUpsample", "DiffuseGIUpsample", "RadianceCellsCommit"})
+	for (const char* const Pass : {"HalfFrame", "ShadowLightsUpsample", "DiffuseGIUpsample", "RadianceCellsCommit"})
 	{
 		EXPECT_EQ(CountPass(Pass), 1u) << Pass;
 	}
@@ -97,26 +102,31 @@ TEST_F(FHalfFrameMockTest, ItsHistoriesAreFreedWithThoseOfTheView)
 	EXPECT_GT(Renderer.GetHistoryBytes(), 2 * Half) << "those of all pixels are larger";
 }
 
-// The picture keeps its indirect light while the other shader is compiled.
-TEST_F(FHalfFrameMockTest, ThePreviousShaderServesUntilTheNextOneIsReady)
+// A picture keeps its indirect light of all pixels while shaders of the half frame are compiled.
+TEST_F(FHalfFrameMockTest, TheWholeFrameServesUntilItsShadersAreReady)
 {
 	Set("r.RT.GI", "3");
-	Set("r.RT.GI.Path", "1");
-	LoadAndRender({.bSky = true});
-	ASSERT_TRUE(HasPass("DiffuseGI"));
+	LoadAndRender({.bLights = true, .bSky = true});
 	Engine->bRealTime = true;
-	for (const char* const bHalf : {"1", "0"})
+	Mock().HoldCompiles("HalfFrame");
+	Set("r.RT.GI.HalfResolution", "1");
+	Set("r.RT.Lights.HalfResolution", "1");
+	const auto Frame = [&] {
+		ASSERT_NO_FATAL_FAILURE(Render());
+		EXPECT_TRUE(HasPass("DiffuseGI"));
+		EXPECT_NE(HasPass("ShadowLights"), HasPass("ShadowHalfLights"));
+		GiveWay();
+	};
 	{
-		const bool bWas = HasPass("DiffuseGIUpsample");
-		Set("r.RT.GI.HalfResolution", bHalf);
-		const auto Frame = [&] {
-			ASSERT_NO_FATAL_FAILURE(Render());
-			EXPECT_TRUE(HasPass("DiffuseGI")) << bHalf;
-			GiveWay();
-		};
+		const FHangGuard Guard("frames while shaders are compiled", [&] { Mock().ClearCompileFaults(); });
 		ASSERT_TRUE(WaitUntil(
-		    "the other shader", [&] { return HasPass("DiffuseGIUpsample") != bWas; }, Frame));
+		    "a compile in the driver", [&] { return Mock().GetCompilesInDriver() > 0; }, Frame));
+		for (int I = 0; I < 3; ++I) { ASSERT_NO_FATAL_FAILURE(Frame()); }
+		EXPECT_FALSE(HasPass("HalfFrame"));
 	}
+	Mock().ClearCompileFaults();
+	ASSERT_TRUE(WaitUntil(
+	    "the half frame", [&] { return HasPass("DiffuseGIUpsample") && HasPass("ShadowHalfLights"); }, Frame));
 }
 
 } // namespace

@@ -229,7 +229,8 @@ TEST_F(FRendererCompileTest, PrecacheLeavesNothingToFrames)
 	};
 	for (const FCase& Case :
 	    {FCase{"r.RT.Shadow.Path", "2"}, FCase{"r.RT.Shadow.Path", "1"}, FCase{"r.RT.AO.Path", "1"}, FCase{"r.RT.GI", "1"},
-	        FCase{"r.RT.Reflections", "1"}, FCase{"r.RT.Debug.View", "ambient_occlusion"}, FCase{"r.RT.AO.Denoise", "0"}})
+	        FCase{"r.RT.Reflections", "1"}, FCase{"r.RT.Debug.View", "ambient_occlusion"}, FCase{"r.RT.AO.Denoise", "0"},
+	        FCase{"r.RT.Lights.HalfResolution", "1"}, FCase{"r.RT.GI", "3"}, FCase{"r.RT.GI.HalfResolution", "1"}})
 	{
 		SCOPED_TRACE(std::string(Case.Name) + " = " + Case.Value);
 		Set(Case.Name, Case.Value);

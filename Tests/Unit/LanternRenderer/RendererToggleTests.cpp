@@ -325,6 +325,39 @@ TEST_F(FRendererToggleTest, FilterReadsOnlyPenumbraeThatAreWritten)
 	    "a measured penumbra", [&] { return bWritten && bRead; }, Frame));
 }
 
+// The variant from before serves while another rate's is compiled: that of the first launch, and not the second one's, which reads its list.
+TEST_F(FRendererToggleTest, NeitherLaunchOfDiffuseGIServesForTheOther)
+{
+	Set("r.RT.GI", "3");
+	Set("r.RT.GI.Path", "1");
+	Set("r.RT.Reflections", "0");
+	LoadAndRender({.bSky = true});
+	Engine->bRealTime = true;
+	const auto CountLaunches = [&](const char* File) {
+		std::vector<FRTMockCall> Traces = Mock().FindCalls(ERTMockCall::TraceRays);
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::TraceRaysIndirect)) { Traces.push_back(Call); }
+		return std::count_if(Traces.begin(), Traces.end(), [&](const FRTMockCall& Call) {
+			return GetRTPSO()->GetRayGen(static_cast<uint32_t>(Call.Numbers[0])).Path.find(File) != std::string::npos;
+		});
+	};
+	for (const char* const Rate : {"2", "1", "0"})
+	{
+		Set("r.RT.GI.Rate", Rate);
+		for (int I = 0; I < 4; ++I)
+		{
+			ASSERT_NO_FATAL_FAILURE(Render());
+			EXPECT_EQ(CountLaunches("DiffuseGI/DiffuseGI.rgen"), 1) << Rate;
+			EXPECT_EQ(CountLaunches("DiffuseGI/Deferred.rgen"), 1) << Rate;
+		}
+		ASSERT_TRUE(WaitUntil(
+		    "all shaders", [&] { return Engine->GetRenderer().AreShadersReady(); },
+		    [&] {
+			Render();
+			GiveWay();
+		    }));
+	}
+}
+
 /// What frames use and what the device holds, while the picture changes its size.
 class FRendererSizeTest : public FRendererTest
 {

@@ -183,6 +183,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.Shared = GetAddress(Pass, Paths.Shared.Fresh);
 	C.NearPixels = GetNearPixels(Frame);
 	C.ToonPixels = GetSampledIndex(Pass, Paths.Toon);
+	C.bHalf = Frame.bHalf ? 1u : 0u;
 	if (bDeferred) { return TraceThreadList(Pass, Frame, Paths.Second, Paths.Deferred, C, Paths.Width, Paths.Height); }
 	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces));
 	TraceFirst(Pass, Frame, Paths, C);
@@ -261,6 +262,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 FPassRays MakeDeferredRays(const FPassRays& Rays)
 {
 	FPassRays Deferred = Rays;
+	Deferred.Shaders = "DiffuseGI/Deferred"; // the one signal whose paths end in cells
 	for (auto& Define : Deferred.Defines)
 	{
 		if (Define.first == DefersPaths) { Define.first = "DEFERRED_PATHS"; }

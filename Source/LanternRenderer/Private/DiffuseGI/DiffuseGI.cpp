@@ -6,6 +6,7 @@
 #include "BruteForce/BruteForce.h"
 #include "Denoise/Denoise.h"
 #include "HalfFrame/HalfFrame.h"
+#include "Lights/LightCells.h"
 #include "MovedShare/MovedShare.h"
 #include "RadianceCells/RadianceCells.h"
 #include "RadianceCells/RadianceCellsView.h"
@@ -58,6 +59,8 @@ constexpr float KnownChangesHistory = 2.0f; // Docs/Performance.md, "History of 
 constexpr uint32_t ReuseStep = 2;           // pixels, from one path to the next where one pixel of four traces
 
 bool IsProbeRoute() { return CVarRoute.GetOnRenderThread() == 2; }
+/// Screen probes are few by themselves.
+bool IsHalfWanted() { return CVarRoute.GetOnRenderThread() == 3 && CVarHalf.GetOnRenderThread(); }
 /// Pixels with many paths of their own know enough.
 bool IsReused() { return CVarRoute.GetOnRenderThread() == 3 && CVarReuse.GetOnRenderThread() && CVarSamples.GetOnRenderThread() == 1; }
 
@@ -84,8 +87,8 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 	{
 		// Each pixel has a value in each frame, and as few paths in a second as one that has a value in its turn. The scene says what has
 		// changed, so that history may last longer than where the picture must show it.
-		const uint32_t PathsPerPixel = Context.bHalf ? GetTurnFrames(EPixelRate::Quarter) : 1;
-		Settings.HistorySeconds *= KnownChangesHistory * static_cast<float>(GetTurnFrames(GetTraceRate()) * PathsPerPixel);
+		const uint32_t PixelsPerPath = GetTurnFrames(GetTraceRate()) * (Context.bHalf ? 4 : 1);
+		Settings.HistorySeconds *= KnownChangesHistory * static_cast<float>(PixelsPerPath);
 		Settings.Passes = std::min(Settings.Passes, MostReusePasses);
 		if (GetTraceRate() != EPixelRate::Full) { Settings.FirstStep = ReuseStep; }
 	}
@@ -134,24 +137,25 @@ FLobes AddLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 	return FilterLobes(Context, GBuffer, AddBruteForcePass(BruteForce, Context, RequireToonSurface(Context, GBuffer)));
 }
 
-FLobes AddHalfLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch)
+FLobes AddHalfLobes(FFrameContext& Context, const FGBuffer& GBuffer, ERayPath Path)
 {
 	FHalfFrame* const Half = RequireHalfFrame(Context, GBuffer);
 	if (!Half) { return {}; }
-	(void)RequireRadianceCells(Context, Dispatch.Compute ? ERayPath::Query : ERayPath::Pipeline);
-	const FLobes Lobes = AddLobes(Half->Context, Half->GBuffer);
-	return AddUpsample(Context, RequireToonSurface(Context, GBuffer), GetSignalInfo(ESignal::DiffuseGI).Pass, Lobes);
+	(void)RequireLightCells(Context, GBuffer);
+	(void)RequireRadianceCells(Context, Path);
+	FLobes Lobes = AddLobes(Half->Context, Half->GBuffer);
+	if (!IsMade(ESignal::DiffuseGI, Context.Signals)) { Lobes.Diffuse = {}; } // its rays serve the other lobe alone
+	return AddUpsample(Context, RequireToonSurface(Context, GBuffer), "DiffuseGIUpsample", Lobes);
 }
 
 const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	if (Context.IndirectLobes) { return *Context.IndirectLobes; }
 	(void)AddReflectionsPass(Context, GBuffer); // they ask for cells as well, before these are brought up to date
-	// The shader of now decides: that of before serves until another one is compiled.
-	const std::optional<FRayDispatch> Dispatch =
-	    RequireRayDispatch(Context, ESignal::DiffuseGI, ChooseSignalRays(Context, ESignal::DiffuseGI));
-	const bool bHalf = Dispatch && Dispatch->Has(HalfFrameDefine);
-	FLobes Lobes = bHalf ? AddHalfLobes(Context, GBuffer, *Dispatch) : AddLobes(Context, GBuffer);
+	const FPassQuery Query{Context.Device.GetCapabilities(), Context.Facts, Context.Signals};
+	const ERayPath Path = ChooseBruteForcePath(BruteForce, Query);
+	const bool bHalf = Path != ERayPath::None && IsHalfWanted() && AreHalfFrameShadersReady(Context, IsPair(Query));
+	FLobes Lobes = bHalf ? AddHalfLobes(Context, GBuffer, Path) : AddLobes(Context, GBuffer);
 	const bool bHorizon = !IsProbeRoute(); // probes make up for what lies below a surface
 	Lobes.Diffuse = AddToonGrade(Context, GBuffer, Lobes.Diffuse, bHorizon, Denoise.IsEnabled());
 	Context.IndirectLobes = Lobes;
@@ -165,11 +169,7 @@ FPassRays ChooseDiffuseGIRays(const FPassQuery& Query)
 	FPassRays Rays = ChooseBruteForceRays(BruteForce, Query);
 	if (Rays.bRadianceCells) { ListRadianceCellsViewShaders(Rays.Compute); }
 	if (Rays.Path != ERayPath::None) { ListToonShaders(Query.Facts, false, Rays.Compute); }
-	if (Rays.bRadianceCells && !IsProbeRoute() && CVarHalf.GetOnRenderThread())
-	{
-		Rays.Defines.emplace_back(HalfFrameDefine, "1");
-		ListHalfFrameShaders(IsPair(Query), Rays.Compute);
-	}
+	if (Rays.Path != ERayPath::None && IsHalfWanted()) { ListHalfFrameShaders(IsPair(Query), Rays.Compute); }
 	return Rays;
 }
 

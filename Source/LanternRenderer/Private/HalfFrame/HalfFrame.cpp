@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "HalfFrameTypes.h"
-#include "Lights/LightCells.h"
 
 namespace Lantern
 {
@@ -73,7 +72,7 @@ void AddReducePass(
 	Context.Graph.AddPass("HalfFrame", [&](FPassBuilder& Builder) -> FPassExecute {
 		const auto Declare = [&](FGraphTexture From, FGraphTexture To) {
 			Builder.Read(From, ERTAccess::ShaderRead);
-			Builder.Write(To, ERTAccess::StorageWrite);
+			Builder.WriteIfRead(To, ERTAccess::StorageWrite);
 		};
 		for (const FReduced& Reduced : Textures.Surfaces) { Declare(Reduced.From, Reduced.To); }
 		for (size_t I = 0; I < HALF_FRAME_NUMBERS; ++I)
@@ -140,6 +139,12 @@ FView MakeHalfView(const FView& View)
 	return Half;
 }
 
+bool AreHalfFrameShadersReady(const FFrameContext& Context, bool bPair)
+{
+	const bool bReduce = RequireCompute(Context, MakeReduceSource()) != nullptr; // both are asked for at once
+	return RequireCompute(Context, MakeUpsampleSource(bPair)) && bReduce;
+}
+
 FHalfFrame* RequireHalfFrame(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	if (Context.Half) { return Context.Half.get(); }
@@ -151,7 +156,6 @@ FHalfFrame* RequireHalfFrame(FFrameContext& Context, const FGBuffer& GBuffer)
 		Context.Fail(S);
 		return nullptr;
 	}
-	(void)RequireLightCells(Context, GBuffer); // what pixels of the whole frame look up is marked by these
 	Half->Context.Pass.View = Half->ViewConstants.Address;
 	AddReducePass(Context, *Half, GBuffer, CreateTextures(Half->Context, GBuffer, Half->GBuffer), Pipeline);
 	Context.Half = std::move(Half);
@@ -182,7 +186,7 @@ FLobes AddUpsample(FFrameContext& Context, const FGBuffer& GBuffer, const char* 
 		Outputs[I] = Context.Graph.CreateTexture(Desc, Name);
 	}
 	const FFrameContext* const Frame = &Context;
-	Context.Graph.AddPass((std::string(Name) + "Upsample").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+	Context.Graph.AddPass(Name, [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, Inputs[0], Inputs[1]})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }

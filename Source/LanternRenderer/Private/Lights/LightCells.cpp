@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -290,7 +291,7 @@ FGraphBuffer FLightCells::AddGrid(FFrameContext& Context)
 	Made->Grid.PoolEntries = GetPoolEntries();
 	FHistoryBuffer History;
 	const uint64_t Bytes = FLightCellBuffer::Pool + Made->Grid.PoolEntries * sizeof(uint32_t);
-	if (FRTStatus S = Context.History->GetBuffer("LightCells", {Bytes, ERTBufferUsage::CopySource}, History); !S)
+	if (FRTStatus S = Context.World->History->GetBuffer("LightCells", {Bytes, ERTBufferUsage::CopySource}, History); !S)
 	{
 		if (S.Code == ERTResult::DeviceLost) { Context.Fail(S); }
 		else { LogOnce(ERTLogLevel::Warning, std::string("light cells are off, and all lights are visited: ") + S.Message); }
@@ -368,6 +369,7 @@ void ListLightCellShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 const FLightCellsOfFrame& RequireLightCells(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	FLightCellsOfFrame& Cells = Context.World->LightCells;
+	assert((!Context.bHalf || Cells.bAsked) && "pixels of the whole frame mark what is looked up");
 	if (!Cells.bAsked && RequireLightGrid(Context).Buffer.IsValid()) { Cells.OfView->AddLists(Context, GBuffer); }
 	Cells.bAsked = true;
 	return Cells;

@@ -78,7 +78,7 @@ void AddListPass(FFrameContext& Context, const FComparedTable& Table, FGraphBuff
 bool FindKept(FFrameContext& Context, const char* Name, uint64_t Bytes, bool bChanged, FComparedTable& InOut)
 {
 	if (Bytes == 0) { return false; }
-	if (FRTStatus S = Context.History->GetBuffer(Name, {Bytes}, InOut.Kept); !S)
+	if (FRTStatus S = Context.World->History->GetBuffer(Name, {Bytes}, InOut.Kept); !S)
 	{
 		Context.Fail(S);
 		return false;
@@ -89,7 +89,7 @@ bool FindKept(FFrameContext& Context, const char* Name, uint64_t Bytes, bool bCh
 /// Lists what has changed, once for either lobe. Null pipelines: nobody follows those.
 FGraphBuffer RequireList(FFrameContext& Context, IRTPipeline* LampList, IRTPipeline* EmitterList)
 {
-	FLampChangesOfFrame& Changes = Context.LampChanges;
+	FLampChangesOfFrame& Changes = Context.World->LampChanges;
 	if (std::exchange(Changes.bAsked, true)) { return Changes.List; }
 	FMovedCasters& Noted = *Context.MovedCasters;
 	const uint32_t Slots = LampList ? Noted.GetLampRoom(Context.Scene.GetLights().GetSlotCount()) : 0;

@@ -4,6 +4,7 @@
 #include "Denoise/Denoise.h"
 #include "HalfFrame/HalfFrame.h"
 #include "Lighting/DirectLighting.h"
+#include "Lights/LightCells.h"
 #include "Lights/PixelChannels.h"
 #include "LocalLightTypes.h"
 #include "LocalLights/Emitters.h"
@@ -43,6 +44,9 @@ uint32_t GetExact(const FSceneFacts& Facts)
 {
 	return Facts.bLightMask ? TILE_LIGHTS : static_cast<uint32_t>(CVarExact.GetOnRenderThread());
 }
+
+/// A host reads a light mask by tiles of all pixels.
+bool IsHalfWanted(const FSceneFacts& Facts) { return CVarHalf.GetOnRenderThread() && !Facts.bLightMask; }
 
 /// Whether pixels choose of lamps: where each has its ray, the filter need not be told of changes.
 bool AreLampsChosen(const FSceneFacts& Facts) { return Facts.Lights > GetExact(Facts) && IsGuided(Facts, GetExact(Facts)); }
@@ -144,19 +148,25 @@ FGraphTexture AddTracedLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESi
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
 
+bool IsPair(const FSignalRequests& Requests) { return IsMade(ESignal::LocalDiffuse, Requests) && IsMade(ESignal::LocalSpecular, Requests); }
+
 FLobes AddHalfLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	FHalfFrame* const Half = RequireHalfFrame(Context, GBuffer);
 	if (!Half) { return {}; }
+	const uint32_t Exact = GetExact(Context.Facts);
+	const bool bCells = MayChooseLights(Context.Facts, Exact) && !IsGuided(Context.Facts, Exact);
+	if (bCells) { (void)RequireLightCells(Context, GBuffer); }
 	FLobes Lobes;
 	Lobes.Diffuse = AddTracedLobe(Half->Context, Half->GBuffer, ESignal::LocalDiffuse);
 	Lobes.Specular = AddTracedLobe(Half->Context, Half->GBuffer, ESignal::LocalSpecular);
-	return AddUpsample(Context, GBuffer, GetSignalInfo(ESignal::LocalDiffuse).Pass, Lobes);
+	return AddUpsample(Context, GBuffer, "ShadowLightsUpsample", Lobes);
 }
 
 FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal)
 {
-	if (!AreLocalLightsHalf(Context.Facts)) { return AddTracedLobe(Context, GBuffer, Signal); }
+	if (!IsMade(Signal, Context.Signals) || ChooseSignalRays(Context, Signal).Path == ERayPath::None) { return {}; }
+	if (!AreLocalLightsHalf(Context)) { return AddTracedLobe(Context, GBuffer, Signal); }
 	if (!Context.LocalLobes) { Context.LocalLobes = AddHalfLobes(Context, GBuffer); }
 	return Signal == ESignal::LocalDiffuse ? Context.LocalLobes->Diffuse : Context.LocalLobes->Specular;
 }
@@ -164,7 +174,12 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 
 bool AreLocalLightsShadowed() { return CVarLights.GetOnRenderThread(); }
 
-bool AreLocalLightsHalf(const FSceneFacts& Facts) { return CVarHalf.GetOnRenderThread() && !Facts.bLightMask; }
+bool AreLocalLightsHalf(const FFrameContext& Context)
+{
+	std::optional<bool>& bHalf = Context.World->bLampsHalf;
+	if (!bHalf) { bHalf = IsHalfWanted(Context.Facts) && AreHalfFrameShadersReady(Context, IsPair(Context.Signals)); }
+	return *bHalf;
+}
 
 ERayPath ChooseLocalLightPath(const FPassQuery& Query)
 {
@@ -194,11 +209,7 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	ListLocalRequestShaders(Query.Facts, Exact, Rays.Compute);
 	ListLightMaskShaders(Query.Facts, Rays.Compute);
 	ListLampViewShaders(Rays.Compute);
-	if (AreLocalLightsHalf(Query.Facts))
-	{
-		const bool bPair = IsMade(ESignal::LocalDiffuse, Query.Requests) && IsMade(ESignal::LocalSpecular, Query.Requests);
-		ListHalfFrameShaders(bPair, Rays.Compute);
-	}
+	if (IsHalfWanted(Query.Facts)) { ListHalfFrameShaders(IsPair(Query.Requests), Rays.Compute); }
 	if (Denoise.IsEnabled() && AreChangesFollowed(Query.Facts))
 	{
 		ListLampChangeShaders(AreLampsChosen(Query.Facts), Query.Facts, MakeLocalDefines(Query.Facts, Exact), Rays.Compute);

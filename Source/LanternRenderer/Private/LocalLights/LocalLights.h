@@ -11,8 +11,8 @@ namespace Lantern
 ERayPath ChooseLocalLightPath(const FPassQuery& Query);
 /// r.RT.Lights.
 bool AreLocalLightsShadowed();
-/// Returns whether the half frame has their rays. A host reads a light mask by its own tiles.
-bool AreLocalLightsHalf(const FSceneFacts& Facts);
+/// Returns whether the half frame has their rays (r.RT.Lights.HalfResolution). Either context of a frame has the same answer.
+bool AreLocalLightsHalf(const FFrameContext& Context);
 FPassRays ChooseLocalLightRays(const FPassQuery& Query);
 bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut);
 /// Read Depth, Normals, BaseColor, Material and, if there is any, Motion of the G-buffer.

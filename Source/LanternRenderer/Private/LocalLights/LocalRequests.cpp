@@ -300,13 +300,17 @@ void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vect
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
 	ListEmitterShaders(Facts, Out);
 	if (HasRegions(Facts, Exact)) { Out.push_back(MakeLightRegionsSource(Facts)); }
-	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
+	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact)))
+	{
+		Out.push_back(MakeShareSource());
+	} // also until the half frame is ready
 	if (HasLocalRays(Facts) && WantsSecondRays()) { Out.push_back(MakeSecondRaysSource(MakeLocalDefines(Facts, Exact))); }
 }
 
 bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 {
-	const bool bShared = !MayQueuesOverflow(1 + GetLocalRaysPerPixel(Context.Facts, Exact)) || RequireCompute(Context, MakeShareSource());
+	const bool bShared =
+	    Context.bHalf || !MayQueuesOverflow(1 + GetLocalRaysPerPixel(Context.Facts, Exact)) || RequireCompute(Context, MakeShareSource());
 	const bool bSecond = !HasLocalRays(Context.Facts) || !WantsSecondRays() ||
 	                     RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Exact)));
 	const bool bListed = !HasRegions(Context.Facts, Exact) || RequireCompute(Context, MakeLightRegionsSource(Context.Facts));

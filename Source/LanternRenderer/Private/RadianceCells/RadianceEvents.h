@@ -29,7 +29,7 @@ public:
 		std::vector<FRadianceEvent> Lamps;
 	};
 	/// Finds what has changed since the view's last frame, and what did so less than HoldSeconds ago. DeltaSeconds: since that frame.
-	/// Camera: in the world. SkyChange: FFrameContext's.
+	/// Camera: in the world. SkyChange: FWorldOfFrame's.
 	FFound Find(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds, double SkyChange);
 	/// Counts the frames of a table of cells. bFresh: it begins anew. Returns those before this one.
 	uint32_t CountFrames(bool bFresh) { return Frames = bFresh ? 0 : Frames + 1; }

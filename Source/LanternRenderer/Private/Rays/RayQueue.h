@@ -56,7 +56,7 @@ bool MayQueuesOverflow(uint32_t MostPerPixel);
 ERayPath ChooseQueuePath(const FPassQuery& Query, const char* What);
 
 /// MostPerPixel: requests that a pixel can make, which the queue never exceeds. It has room for what
-/// r.RT.Rays.QueuePerPixel says, or for what earlier frames asked for.
+/// r.RT.Rays.QueuePerPixel says, or for what earlier frames asked for. That of the half frame has room for all.
 FRayQueue CreateRayQueue(FFrameContext& Context, uint32_t MostPerPixel);
 /// Creates a further queue of the frame in the place of one that has been traced by then; answers lie where its do. What has no room
 /// in it is left out. Suffix: of the names of its passes.

@@ -21,9 +21,9 @@ std::optional<FAsked> AskSignals(FFrameContext& Context)
 {
 	std::optional<FAsked> Asked;
 	ForEachSignalPass([&](const FSignalPass& Pass) {
-		if (!Pass.AskShadowRays || (Pass.IsHalf && Pass.IsHalf(Context.Facts)) != Context.bHalf) { return; }
+		if (!Pass.AskShadowRays) { return; }
 		const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, Pass.Signal, ChooseSignalRays(Context, Pass.Signal));
-		if (!Dispatch) { return; }
+		if (!Dispatch || (Pass.IsHalf && Pass.IsHalf(Context)) != Context.bHalf) { return; }
 		FAsked Next = Asked ? *Asked : FAsked{*Dispatch, {}};
 		if (!Pass.AskShadowRays(Context, *Dispatch, Next.Wishes)) { return; }
 		Asked = std::move(Next);

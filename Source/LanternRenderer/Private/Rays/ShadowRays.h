@@ -1,4 +1,5 @@
-// The shadow rays of a frame. All signals that want some share one queue and one trace, whichever of them is added first.
+// The shadow rays of a frame. All signals of it that want some share one queue and one trace, whichever of them is added first. Those of the
+// half frame have a queue of their own.
 #pragma once
 
 #include <optional>
@@ -44,7 +45,7 @@ struct FShadowRays
 };
 
 /// Adds the passes of the frame's shadow rays with the first call, and returns what they fill. Each signal whose row has
-/// FSignalPass::AskShadowRays is asked. Null: nobody wants any, or shaders are being compiled, or an error, which the context then has.
+/// FSignalPass::AskShadowRays, and FSignalPass::IsHalf as the context, is asked. Null: nobody wants any, or shaders are being compiled, or an error, which the context then has.
 const FShadowRays* RequireShadowRays(FFrameContext& Context, const FGBuffer& GBuffer);
 
 } // namespace Lantern

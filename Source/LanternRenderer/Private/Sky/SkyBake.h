@@ -23,7 +23,7 @@ class FSkyBake
 {
 public:
 	explicit FSkyBake(IRTDevice& InDevice) : Device(InDevice) {}
-	/// Adds the frame's part of it, and sets FFrameContext::SkyChange. Does nothing, and frees the maps, without a program. bRead: something in
+	/// Adds the frame's part of it, and sets FWorldOfFrame::SkyChange. Does nothing, and frees the maps, without a program. bRead: something in
 	/// the frame asks for the sky's radiance. Where the map cannot be made, the frame's facts know of no program.
 	FRTStatus AddPasses(FFrameContext& Context, FFrameUploads& Uploads, uint32_t ViewIndex, bool bRead);
 	/// Makes the map the sky of the frame's constants, if there is one.
@@ -59,7 +59,7 @@ private:
 	double Done = 1.0;                    ///< share of the round's tiles
 	double FadeLeft = 0.0;                ///< seconds
 	double Leap = 0.0;                    ///< by how much the sky of Baked differs from what was shown; 0: clouds have drifted
-	double Change = 0.0;                  ///< FFrameContext::SkyChange of the last frame that took its turn
+	double Change = 0.0;                  ///< FWorldOfFrame::SkyChange of the last frame that took its turn
 	FSkyData Last{};                      ///< of the last frame
 	FAddress Data = 0;                    ///< of this frame
 	uint64_t LastWorld = 0;               ///< identity of its scene's sections

@@ -171,6 +171,8 @@ struct FWorldOfFrame
 	FHistoryResources* History = nullptr; ///< where caches of the world are kept
 	FLightCellsOfFrame LightCells;
 	FMoversOfFrame Movers;
+	FLampChangesOfFrame LampChanges;
+	std::optional<bool> bLampsHalf; ///< AreLocalLightsHalf, for the whole frame: shaders may become ready in the middle of it
 	std::shared_ptr<const FRadianceCells> RadianceCells; ///< null: none, or nobody has asked so far
 	bool bRadianceCellsAsked = false;
 	double SkyChange = 0.0; ///< share of the sky's light that a program's leap changes in this frame, beside the scene's own values
@@ -193,7 +195,6 @@ struct FPixelsOfFrame
 	std::optional<FGraphTexture> ReflectedLight; ///< the signal; nullopt: nobody has asked so far
 	std::optional<FTransmission> Transmission;   ///< nullopt: nobody has asked so far
 	std::optional<FLightMask> LightMask;         ///< nullopt: nobody has asked so far
-	FLampChangesOfFrame LampChanges;
 	/// The frame with a quarter of these pixels, for signals that do without the others. Null: nobody has asked so far.
 	std::shared_ptr<FHalfFrame> Half;
 };
