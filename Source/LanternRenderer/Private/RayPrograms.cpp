@@ -126,7 +126,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		{
 			Collector.Programs.bQueries = true;
 			Compute.push_back(MakeQuerySource(Facts, Pass.Signal, Rays));
-			if (Rays.bRadianceCells) { Compute.push_back(MakeQuerySource(Facts, Pass.Signal, MakeDeferredRays(Rays))); }
+			if (Rays.bRadianceCells) { Compute.push_back(MakeQuerySource(Facts, Pass.Signal, MakeDeferredRays(Pass.Signal, Rays))); }
 		}
 		Compute.insert(Compute.end(), Rays.Compute.begin(), Rays.Compute.end());
 		if (bMade && Pass.ListFilters)
@@ -140,7 +140,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 			const std::string RayGen = GetRayShaderPath(Pass.Signal, Rays, ".rgen");
 			if (Rays.bRadianceCells)
 			{
-				FPassRays Deferred = MakeDeferredRays(Rays);
+				FPassRays Deferred = MakeDeferredRays(Pass.Signal, Rays);
 				const std::string Second = GetRayShaderPath(Pass.Signal, Deferred, ".rgen");
 				Collector.Add(EPassRayGen::DeferredPaths, std::move(Deferred), Second);
 			}

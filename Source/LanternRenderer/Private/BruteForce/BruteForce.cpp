@@ -259,10 +259,10 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	return Rays;
 }
 
-FPassRays MakeDeferredRays(const FPassRays& Rays)
+FPassRays MakeDeferredRays(ESignal Signal, const FPassRays& Rays)
 {
 	FPassRays Deferred = Rays;
-	Deferred.Shaders = "DiffuseGI/Deferred"; // the one signal whose paths end in cells
+	Deferred.Shaders = std::string(GetSignalInfo(Signal).Pass) + "/Deferred";
 	for (auto& Define : Deferred.Defines)
 	{
 		if (Define.first == DefersPaths) { Define.first = "DEFERRED_PATHS"; }
@@ -278,7 +278,7 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 	std::optional<FRayDispatch> Second;
 	if (First->Has(DefersPaths))
 	{
-		const FPassRays Deferred = MakeDeferredRays(Rays);
+		const FPassRays Deferred = MakeDeferredRays(Settings.Signal, Rays);
 		Second = RequireRayDispatch(
 		    Context, Deferred, Context.GetRayGen(EPassRayGen::DeferredPaths), MakeQuerySource(Context.Facts, Settings.Signal, Deferred));
 		if (!Second) { return {}; }

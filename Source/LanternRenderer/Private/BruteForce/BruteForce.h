@@ -38,7 +38,7 @@ struct FBruteForcePass
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query);
 FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery& Query);
 /// Returns the second launch of a pass with bRadianceCells, which follows the paths that the first has left.
-FPassRays MakeDeferredRays(const FPassRays& Rays);
+FPassRays MakeDeferredRays(ESignal Signal, const FPassRays& Rays);
 /// What AddBruteForcePass has made. Invalid: nothing is traced, or shaders are being compiled.
 struct FBruteForceOutputs
 {
