@@ -2,6 +2,7 @@
 #version 460
 #extension GL_EXT_ray_query : require
 #define RAY_QUERY
+#define DEFERRED_PATHS
 #include "DiffuseGI.glsl"
 
 layout(local_size_x = RAY_QUEUE_GROUP_SIZE) in;

@@ -258,6 +258,64 @@ TEST_F(FHalfFrameTest, PathsAgree)
 	}
 }
 
+TEST_F(FHalfFrameTest, ACutForgetsAndANewSizeStartsAnew)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts(0.3f));
+	SetHalf(true);
+	SetVariable("r.RT.Lights.Denoise", "1");
+	SetVariable("r.RT.Lights.GuideSeconds", "0");
+	constexpr uint32_t Before = 12;
+	const auto Render = [&](const FView& View, uint32_t First, uint32_t Count) {
+		FCapturedFrame Captured;
+		GetEngine().SetFrameIndex(First);
+		for (uint32_t Frame = 0; Frame < Count; ++Frame)
+		{
+			FView Next = View;
+			Next.bCut = Frame == 0;
+			FFrameCapture Capture;
+			Capture.Signals.Add(ESignal::LocalDiffuse);
+			EXPECT_OK(GetEngine().RenderFrame(Next, 0.0, Capture, &Captured));
+		}
+		return Captured.Get(ESignal::LocalDiffuse);
+	};
+	const FView There = LookAtPosts(96, 54, 1.5);
+	const FImage Fresh = Render(There, Before, 1);
+	(void)Render(LookAtPosts(96, 54), 0, Before);
+	EXPECT_EQ(Render(There, Before, 1).Pixels, Fresh.Pixels) << "a cut";
+	constexpr uint32_t After = 3;
+	for (const glm::uvec2 Size : {glm::uvec2(97, 55), glm::uvec2(40, 24)})
+	{
+		const FView View = LookAtPosts(Size.x, Size.y);
+		const FImage Settled = Render(View, 0, 24), Anew = Render(View, 0, After);
+		(void)Render(LookAtPosts(96, 54), 0, Before);
+		FCapturedFrame Captured;
+		FFrameCapture Capture;
+		Capture.Signals.Add(ESignal::LocalDiffuse);
+		for (uint32_t Frame = 0; Frame < After; ++Frame) { ASSERT_TRUE(GetEngine().RenderFrame(View, 0.0, Capture, &Captured)); }
+		const double Resized = MeanSquareError(Captured.Get(ESignal::LocalDiffuse), Settled), Begun = MeanSquareError(Anew, Settled);
+		PrintFigure(fmt::format("{} x {} behind another size: error {:.2e}, begun anew {:.2e}", Size.x, Size.y, Resized, Begun));
+		EXPECT_LT(Resized, 1.25 * Begun) << "what another size has left is of other places";
+	}
+}
+
+TEST_F(FHalfFrameTest, ToonStylesAreThoseOfAllPixels)
+{
+	ASSERT_TRUE(Load("toon"));
+	SetVariable("r.RT.GI", "3");
+	SetVariable("r.RT.GI.Denoise", "0");
+	SetVariable("r.RT.GI.Cells.Capacity", "65536");
+	const FView View = MakeView(128, 72);
+	FImage Pictures[2];
+	for (int Which = 0; Which < 2; ++Which)
+	{
+		SetHalf(Which == 1);
+		Pictures[Which] = RenderSignal(ESignal::DiffuseGI, View, 16, 16);
+	}
+	const double Ratio = MeanGreen(Pictures[1]) / MeanGreen(Pictures[0]);
+	PrintFigure(fmt::format("toon: mean {:.4f} of that of all pixels", Ratio));
+	EXPECT_NEAR(Ratio, 1.0, 0.03);
+}
+
 TEST_F(FHalfFrameTest, PoisonEndsWithItsFrame)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadPosts(0.12f));

@@ -293,7 +293,8 @@ TEST(ShippedConfig, LevelsRiseWithQuality)
 	{
 		for (int Level = 1; Level < 5; ++Level) { EXPECT_GE(Values[Name][Level], Values[Name][Level - 1]) << Name << Level; }
 	}
-	for (const char* const Name : {"r.RT.Culling.Shadow.MinPixels", "r.RT.Lights.Rate", "r.RT.Fog.PixelSize"})
+	for (const char* const Name :
+	    {"r.RT.Culling.Shadow.MinPixels", "r.RT.Lights.HalfResolution", "r.RT.GI.HalfResolution", "r.RT.Fog.PixelSize"})
 	{
 		for (int Level = 1; Level < 5; ++Level) { EXPECT_LE(Values[Name][Level], Values[Name][Level - 1]) << Name << Level; }
 		EXPECT_GT(Values[Name][0], Values[Name][4]) << Name;

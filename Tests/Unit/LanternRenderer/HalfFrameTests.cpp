@@ -77,6 +77,18 @@ TEST_F(FHalfFrameMockTest, SignalsShareIt)
 	EXPECT_TRUE(HasPass("DiffuseGI"));
 }
 
+// The display has all pixels: Render says so.
+TEST_F(FHalfFrameMockTest, ItsDebugPicturesAreEnlarged)
+{
+	Set("r.RT.Lights.HalfResolution", "1");
+	for (const char* const View : {"LocalDiffuse.confidence", "LocalSpecular.change", "lamp_rays", "local_diffuse"})
+	{
+		Set("r.RT.Debug.View", View);
+		ASSERT_NO_FATAL_FAILURE(LoadAndRender({.bLights = true})) << View;
+		EXPECT_TRUE(HasPass("DebugView")) << View;
+	}
+}
+
 TEST_F(FHalfFrameMockTest, ALightMaskNeedsAllPixels)
 {
 	Set("r.RT.Lights.HalfResolution", "1");

@@ -263,10 +263,7 @@ FPassRays MakeDeferredRays(ESignal Signal, const FPassRays& Rays)
 {
 	FPassRays Deferred = Rays;
 	Deferred.Shaders = std::string(GetSignalInfo(Signal).Pass) + "/Deferred";
-	for (auto& Define : Deferred.Defines)
-	{
-		if (Define.first == DefersPaths) { Define.first = "DEFERRED_PATHS"; }
-	}
+	std::erase_if(Deferred.Defines, [](const auto& Define) { return Define.first == DefersPaths; });
 	return Deferred;
 }
 
