@@ -12,6 +12,16 @@ void Copy(uint From, uint To, ivec2 Source, ivec2 HalfPixel)
 	if (To != NO_TEXTURE) { imageStore(Images[To], HalfPixel, texelFetch(Textures[From], Source, 0)); }
 }
 
+// Returns motion in pixels of the half frame. Readers scale a position by the sizes of the two frames, and odd sizes of half frames are not
+// in proportion to those of whole ones. Place: in the whole frame.
+vec2 HalveMotion(FViewConstants View, vec2 Place, vec2 Motion)
+{
+	vec2 Size = vec2(View.Width, View.Height), Before = vec2(View.PreviousWidth, View.PreviousHeight);
+	if (all(equal(Size, Before))) { return 0.5 * Motion; }
+	vec2 Half = vec2(HalfSizeOf(View)), HalfBefore = floor((Before + 1.0) * 0.5);
+	return 0.5 * (((Place + Motion) * Before / Size + 0.5) * Half / HalfBefore - (Place + 0.5));
+}
+
 void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
@@ -26,7 +36,7 @@ void main()
 	if (Push.To.Motion != NO_TEXTURE)
 	{
 		vec4 Motion = texelFetch(Textures[Push.From.Motion], Source, 0);
-		imageStore(Images[Push.To.Motion], HalfPixel, vec4(Motion.xy * 0.5, Motion.zw));
+		imageStore(Images[Push.To.Motion], HalfPixel, vec4(HalveMotion(View, vec2(Source) + 0.5, Motion.xy), Motion.zw));
 	}
 	for (int I = 0; I < HALF_FRAME_NUMBERS; ++I)
 	{
