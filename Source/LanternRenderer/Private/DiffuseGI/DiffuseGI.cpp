@@ -34,8 +34,8 @@ TRTConsoleVariable<int32_t> CVarRate("r.RT.GI.Rate", 0,
     "take what neighbours on their plane found.",
     {0, 2});
 TRTConsoleVariable<bool> CVarHalf("r.RT.GI.HalfResolution", false,
-    "Finds and filters diffuse global illumination and rough specular light for one pixel of each 2 x 2. The others take it "
-    "along surfaces. r.RT.GI.Rate is then of these pixels. With r.RT.GI 3.");
+    "Finds and filters diffuse global illumination and rough specular light for one pixel of each 2 x 2. The others take it along "
+    "surfaces. r.RT.GI.Rate is then of these pixels. With r.RT.GI 3.");
 TRTConsoleVariable<int32_t> CVarPath("r.RT.GI.Path", 0,
     "How diffuse global illumination traces. 0: by the pipeline where there is one. 1: ray-tracing pipeline. 2: ray queries, which see all "
     "materials as the standard program shows them, and no own shapes.",

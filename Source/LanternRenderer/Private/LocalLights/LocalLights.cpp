@@ -29,9 +29,8 @@ TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
     "r.RT.Lights.Rays says.",
     {1, TILE_LIGHTS});
 TRTConsoleVariable<bool> CVarHalf("r.RT.Lights.HalfResolution", false,
-    "Light of local lights is found for one pixel of each 2 x 2, filtered there, and brought to the others along surfaces. "
-    "r.RT.Lights.Rate "
-    "is then of these pixels. Does not count where an engine reads the light mask.");
+    "Finds and filters light of local lights for one pixel of each 2 x 2. The others take it along surfaces. r.RT.Lights.Rate is then of "
+    "these pixels. Does not count where an engine reads the light mask.");
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
     "The filter of diffuse light looks for changes on surfaces that move, and where a moved caster may shadow a lamp. For 0.13 s "
     "after a lamp has changed, it looks everywhere. If off, it always looks for them in the picture, and takes some noise for change.");
@@ -127,7 +126,7 @@ const FLobes* RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 /// A lobe of the frame that has the rays.
 FGraphTexture AddTracedLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal)
 {
-	if (!IsMade(Signal, Context.Signals) || ChooseSignalRays(Context, Signal).Path == ERayPath::None) { return {}; }
+	if (!IsMade(Signal, Context.Signals)) { return {}; }
 	const FLobes* const Lobes = RequireLobes(Context, GBuffer);
 	if (!Lobes) { return {}; }
 	AddLampView(Context, *Context.ShadowRays);
