@@ -4,7 +4,8 @@
 
 #include "../Library/GBuffer.glsl"
 
-uvec2 HalfSizeOf(FViewConstants View) { return (uvec2(View.Width, View.Height) + 1u) >> 1u; }
+uvec2 HalfSizeOf(uvec2 Size) { return (Size + 1u) >> 1u; }
+uvec2 HalfSizeOf(FViewConstants View) { return HalfSizeOf(uvec2(View.Width, View.Height)); }
 
 // Returns the first pixel, so that motion between frames is that of the pixels. If that one shows the sky, it is the first of the others that
 // does not: a wire before the sky is not lost. OutDepth: of it; 0: the sky.

@@ -16,10 +16,10 @@ void Copy(uint From, uint To, ivec2 Source, ivec2 HalfPixel)
 // in proportion to those of whole ones. Place: in the whole frame.
 vec2 HalveMotion(FViewConstants View, vec2 Place, vec2 Motion)
 {
-	vec2 Size = vec2(View.Width, View.Height), Before = vec2(View.PreviousWidth, View.PreviousHeight);
-	if (all(equal(Size, Before))) { return 0.5 * Motion; }
-	vec2 Half = vec2(HalfSizeOf(View)), HalfBefore = floor((Before + 1.0) * 0.5);
-	return 0.5 * (((Place + Motion) * Before / Size + 0.5) * Half / HalfBefore - (Place + 0.5));
+	uvec2 Size = uvec2(View.Width, View.Height), Before = uvec2(View.PreviousWidth, View.PreviousHeight);
+	if (Size == Before) { return 0.5 * Motion; }
+	vec2 Then = (Place + Motion) * vec2(Before) / vec2(Size) + 0.5;
+	return 0.5 * (Then * vec2(HalfSizeOf(Size)) / vec2(HalfSizeOf(Before)) - (Place + 0.5));
 }
 
 void main()

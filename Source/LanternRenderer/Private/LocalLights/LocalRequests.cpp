@@ -300,10 +300,8 @@ void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vect
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
 	ListEmitterShaders(Facts, Out);
 	if (HasRegions(Facts, Exact)) { Out.push_back(MakeLightRegionsSource(Facts)); }
-	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact)))
-	{
-		Out.push_back(MakeShareSource());
-	} // also until the half frame is ready
+	// The half frame's queue has room for all; the whole one's serves until that frame is ready.
+	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
 	if (HasLocalRays(Facts) && WantsSecondRays()) { Out.push_back(MakeSecondRaysSource(MakeLocalDefines(Facts, Exact))); }
 }
 

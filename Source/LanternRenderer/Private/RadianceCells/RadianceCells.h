@@ -35,7 +35,8 @@ constexpr const char* RadianceCellShaders = "RadianceCells/Update";
 /// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells. Path: as in
 /// ChooseRadianceCellRays. The first call of a frame is for the whole one. Look-ups that may vote have places of their own in
 /// FRadianceGrid::Votes. Each 2×2 pixels share one (VoterOfPixel in Shaders/Library/RadianceCells.glsl), and a pixel of the half frame has its
-/// own. Some may be written in no frame, or not in this one: a vote of an earlier frame is no cell's any more. Passes that vote are added before AddRadianceCellPasses.
+/// own. Some may be written in no frame, or not in this one: a vote of an earlier frame is no cell's any more. Passes that vote are added
+/// before AddRadianceCellPasses.
 const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path);
 /// Declares that a pass looks cells up and asks for those that it misses. Cells may be null.
 void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells);

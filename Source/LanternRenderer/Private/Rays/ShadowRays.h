@@ -44,8 +44,9 @@ struct FShadowRays
 	FQueuedRays Traced;
 };
 
-/// Adds the passes of the frame's shadow rays with the first call, and returns what they fill. Each signal whose row has
-/// FSignalPass::AskShadowRays, and FSignalPass::IsHalf as the context, is asked. Null: nobody wants any, or shaders are being compiled, or an error, which the context then has.
+/// Adds the passes of the frame's shadow rays with the first call, and returns what they fill. Each signal is asked whose row has
+/// FSignalPass::AskShadowRays, and FSignalPass::IsHalf as the context. Null: nobody wants any, or shaders are being compiled, or an error,
+/// which the context then has.
 const FShadowRays* RequireShadowRays(FFrameContext& Context, const FGBuffer& GBuffer);
 
 } // namespace Lantern
