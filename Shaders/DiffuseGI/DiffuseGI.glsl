@@ -124,6 +124,14 @@ void GatherPaths(uvec2 Thread)
 		vec3 Albedo = FindSecondLobe(Push.BaseColor, Push.Material, Pixel, Point, SecondLobe, SecondShare);
 #endif
 		ChooseGatherMask(Push.ToonPixels, Pixel);
+#ifdef BACK_PIXELS
+		bGathersBack = Point.bBack && Push.BackAlbedo != NO_TEXTURE;
+		if (bGathersBack)
+		{
+			GatheredBrdf = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), texelFetch(Textures[Push.Material], Pixel, 0));
+			AddBackLobe(Push.BackAlbedo, Pixel, GatheredBrdf);
+		}
+#endif
 		Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, MakeWhiteLambert(), Push.SamplesPerPixel, Push.MaxBounces,
 		                                  0x61c88647u);
 #ifdef SECOND_LOBE

@@ -1,8 +1,9 @@
-// The fragment shader of the G-buffer. MASKED: with the alpha test. MOTION: also writes motion vectors.
+// The fragment shader of the G-buffer. MASKED: with the alpha test. MOTION: also writes motion vectors. BACK: also writes FGBuffer::BackAlbedo.
 #version 460
 #define MATERIAL_IMPLICIT_LOD
 #include "../Shared/GBufferTypes.h"
 #include "../Materials/Material.glsl"
+#include "../Library/GBuffer.glsl"
 #ifdef MOTION
 #include "../Library/Motion.glsl"
 #endif
@@ -28,6 +29,14 @@ layout(location = 3) out vec4 OutEmissive;
 layout(location = 4) out vec4 OutMotion; // see FGBuffer::Motion
 #endif
 
+#ifdef BACK
+#ifdef MOTION
+layout(location = 5) out vec4 OutBack;
+#else
+layout(location = 4) out vec4 OutBack;
+#endif
+#endif
+
 void main()
 {
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
@@ -51,7 +60,13 @@ void main()
 	bool bMirrored = (FObjectRef(Scene.Objects).Data[InObject].Flags & OBJECT_MIRRORED) != 0u;
 	if (gl_FrontFacing == bMirrored) { Surface.Normal = -Surface.Normal; }
 
-	OutNormals = vec4(OctEncode(Surface.Normal), OctEncode(Ng));
+	bool bBack = false;
+#ifdef BACK
+	float Share = Material.DiffuseTransmission > 0.0 ? clamp(Surface.DiffuseTransmission, 0.0, 1.0) : 0.0;
+	OutBack = Share > 0.0 ? vec4(Surface.DiffuseTransmissionColor * (Share * (1.0 - Surface.Metallic)), Share) : vec4(0.0);
+	bBack = OutBack.rgb != vec3(0.0);
+#endif
+	OutNormals = vec4(OctEncode(Surface.Normal), MarkBack(OctEncode(Ng), bBack));
 	OutBaseColor = vec4(Surface.BaseColor, Surface.Metallic);
 	OutMaterial = vec4(Surface.Roughness, Surface.Occlusion, sqrt(Surface.F0), Surface.Specular);
 	OutEmissive = vec4(Surface.Emissive, 0.0);

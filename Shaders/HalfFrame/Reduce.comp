@@ -33,6 +33,7 @@ void main()
 	Copy(Push.From.Normals, Push.To.Normals, Source, HalfPixel);
 	Copy(Push.From.BaseColor, Push.To.BaseColor, Source, HalfPixel);
 	Copy(Push.From.Material, Push.To.Material, Source, HalfPixel);
+	Copy(Push.From.BackAlbedo, Push.To.BackAlbedo, Source, HalfPixel);
 	if (Push.To.Motion != NO_TEXTURE)
 	{
 		vec4 Motion = texelFetch(Textures[Push.From.Motion], Source, 0);

@@ -14,8 +14,23 @@ struct FBrdf
 	float Alpha;    // roughness²
 	float F0;       // reflectance of the dielectric at normal incidence
 	float Specular; // weight of the dielectric layer
-	float Diffuse;  // weight of the Lambert base: 1, or 0 for the specular lobe alone
+	float Diffuse;  // weight of the Lambert base: 1, less what leaves on the other side, or 0 for the specular lobe alone
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	vec3 BackAlbedo; // of the base, for light that arrives on the other side and leaves on V's: a Lambert lobe about −z
+#endif
 };
+
+// HAS_DIFFUSE_TRANSMISSION: some surfaces scatter light through to their other side (KHR_materials_diffuse_transmission). NO_BACK_LOBE: planted
+// fault (r.RT.Debug.DiffuseTransmission): what leaves there is lost.
+vec3 GetBackAlbedo(FBrdf Brdf)
+{
+#if defined(HAS_DIFFUSE_TRANSMISSION) && !defined(NO_BACK_LOBE)
+	return Brdf.BackAlbedo;
+#else
+	return vec3(0.0);
+#endif
+}
+bool HasBack(FBrdf Brdf) { return GetBackAlbedo(Brdf) != vec3(0.0); }
 
 // A lobe with a smaller Alpha is treated as a delta (a perfect mirror), since fp32 cannot resolve it.
 const float MinAlpha = 1.0e-3;
@@ -49,14 +64,35 @@ vec3 SpecularFresnel(FBrdf Brdf, float VdotH)
 
 vec3 DiffuseAlbedo(FBrdf Brdf) { return Brdf.BaseColor * ((1.0 - Brdf.Metallic) * Brdf.Diffuse); }
 
+FBrdf MakeLambert(vec3 Albedo)
+{
+	FBrdf Brdf;
+	Brdf.BaseColor = Albedo;
+	Brdf.Metallic = Brdf.F0 = Brdf.Specular = 0.0;
+	Brdf.Alpha = Brdf.Diffuse = 1.0;
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	Brdf.BackAlbedo = vec3(0.0);
+#endif
+	return Brdf;
+}
+
 // Makes a white Lambert surface, which reflects irradiance / π.
-FBrdf MakeWhiteLambert() { return FBrdf(vec3(1.0), 0.0, 1.0, 0.0, 0.0, 1.0); }
+FBrdf MakeWhiteLambert() { return MakeLambert(vec3(1.0)); }
+
+// What leaves on the side of its arrival alone.
+FBrdf MakeFrontLobes(FBrdf Brdf)
+{
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	Brdf.BackAlbedo = vec3(0.0);
+#endif
+	return Brdf;
+}
 
 // Removes the diffuse lobe.
 FBrdf MakeSpecularLobe(FBrdf Brdf)
 {
 	Brdf.Diffuse = 0.0;
-	return Brdf;
+	return MakeFrontLobes(Brdf);
 }
 
 // Bends a shading normal that faces away from the viewer back to grazing.
@@ -83,10 +119,21 @@ float SmithVisibility(float NdotL, float NdotV, float Alpha)
 	return 0.5 / max(L + V, 1.0e-20);
 }
 
-// Returns the diffuse and the specular part of the BRDF. The result omits the specular lobe of a mirror, which is a delta.
+// The share of light that the dielectric layer lets in and out again towards the viewer, if it arrives evenly from all directions: the mean of
+// 1 − F(V·H) over a cosine-weighted hemisphere of L. The mean of (1 − V·H)⁵ depends on n·v alone and is fitted by a cubic (largest error
+// 7e-5).
+float LayerTransmittance(FBrdf Brdf, float NdotV)
+{
+	float Weight = ((-0.025707 * NdotV + 0.075238) * NdotV - 0.077609) * NdotV + 0.02809;
+	return 1.0 - Brdf.Specular * mix(Brdf.F0, 1.0, Weight);
+}
+
+// Returns the diffuse and the specular part of the BRDF. The result omits the specular lobe of a mirror, which is a delta. What shines through
+// from behind is diffuse, and no half vector says how much of it the layer reflects: it takes the mean.
 void EvaluateLobes(FBrdf Brdf, vec3 V, vec3 L, out vec3 Diffuse, out vec3 Specular)
 {
 	Diffuse = Specular = vec3(0.0);
+	if (L.z < 0.0 && V.z > 0.0 && HasBack(Brdf)) { Diffuse = GetBackAlbedo(Brdf) * (LayerTransmittance(Brdf, V.z) / Pi); }
 	if (L.z <= 0.0 || V.z <= 0.0) { return; }
 	vec3 H = V + L;
 	float LengthSquared = dot(H, H);
@@ -97,12 +144,12 @@ void EvaluateLobes(FBrdf Brdf, vec3 V, vec3 L, out vec3 Diffuse, out vec3 Specul
 	Specular = SpecularFresnel(Brdf, VdotH) * (GgxDistribution(H.z, Brdf.Alpha) * SmithVisibility(L.z, V.z, Brdf.Alpha));
 }
 
-// Returns the BRDF times n·l, without the specular lobe of a mirror.
+// Returns the BRDF times |n·l|, without the specular lobe of a mirror.
 vec3 EvaluateBrdfCos(FBrdf Brdf, vec3 V, vec3 L)
 {
 	vec3 Diffuse, Specular;
 	EvaluateLobes(Brdf, V, L, Diffuse, Specular);
-	return (Diffuse + Specular) * L.z;
+	return (Diffuse + Specular) * abs(L.z);
 }
 
 // Samples GGX visible normals with spherical caps (Dupuy & Benyoub 2023). The cap is bounded to normals that reflect upwards
@@ -138,29 +185,40 @@ float GgxPdf(vec3 V, vec3 H, float Alpha)
 float SpecularProbability(FBrdf Brdf, vec3 V)
 {
 	float Specular = Luminance(SpecularFresnel(Brdf, V.z));
-	float Diffuse = Luminance(DiffuseAlbedo(Brdf)) * (1.0 - DielectricFresnel(Brdf, V.z));
+	float Diffuse = Luminance(DiffuseAlbedo(Brdf) + GetBackAlbedo(Brdf)) * (1.0 - DielectricFresnel(Brdf, V.z));
 	if (Specular <= 0.0) { return 0.0; }
 	if (Diffuse <= 0.0) { return 1.0; }
 	return clamp(Specular / (Specular + Diffuse), 0.1, 0.9);
 }
 
+// Returns the chance that what is not specular is light from behind.
+float BackProbability(FBrdf Brdf)
+{
+	float Front = Luminance(DiffuseAlbedo(Brdf)), Back = Luminance(GetBackAlbedo(Brdf));
+	return Back > 0.0 ? Back / (Front + Back) : 0.0;
+}
+
 // Returns the pdf with which SampleBrdf samples L. It omits the delta of a mirror.
 float BrdfPdf(FBrdf Brdf, vec3 V, vec3 L)
 {
-	if (L.z <= 0.0 || V.z <= 0.0) { return 0.0; }
-	float SpecularChance = SpecularProbability(Brdf, V);
-	float Pdf = (1.0 - SpecularChance) * L.z / Pi;
+	if (L.z == 0.0 || V.z <= 0.0 || (L.z < 0.0 && !HasBack(Brdf))) { return 0.0; }
+	float SpecularChance = SpecularProbability(Brdf, V), BackChance = BackProbability(Brdf);
+	float Pdf = (1.0 - SpecularChance) * (L.z < 0.0 ? BackChance : 1.0 - BackChance) * abs(L.z) / Pi;
+	if (L.z < 0.0) { return Pdf; }
 	if (SpecularChance > 0.0 && !IsMirror(Brdf)) { Pdf += SpecularChance * GgxPdf(V, normalize(V + L), Brdf.Alpha); }
 	return Pdf;
 }
 
-// Returns the directional albedo of the base layer: the share of irradiance / π that it reflects towards the viewer if the
-// incident light is uniform. The dielectric layer transmits the mean of 1 − F(V·H) over a cosine-weighted hemisphere of L.
-// The mean of (1 − V·H)⁵ depends on n·v alone and is fitted by a cubic (largest error 7e-5).
-vec3 DiffuseReflectance(FBrdf Brdf, float NdotV)
+// Returns the directional albedo of the base layer: the share of irradiance / π that it sends towards the viewer if the incident light is
+// uniform, of both sides.
+vec3 DiffuseReflectance(FBrdf Brdf, float NdotV) { return (DiffuseAlbedo(Brdf) + GetBackAlbedo(Brdf)) * LayerTransmittance(Brdf, NdotV); }
+
+// Returns the share that a side's light has in what the surface sends, over DiffuseReflectance.
+vec3 ShareOfSide(FBrdf Brdf, bool bBack)
 {
-	float Weight = ((-0.025707 * NdotV + 0.075238) * NdotV - 0.077609) * NdotV + 0.02809;
-	return DiffuseAlbedo(Brdf) * (1.0 - Brdf.Specular * mix(Brdf.F0, 1.0, Weight));
+	vec3 Front = DiffuseAlbedo(Brdf), Back = GetBackAlbedo(Brdf), Whole = Front + Back;
+	vec3 Share = Back / max(Whole, vec3(1.0e-6));
+	return bBack ? Share : vec3(1.0) - Share;
 }
 
 // Returns the directional albedo of the specular lobe. x is the albedo with F = 1 everywhere. y uses

@@ -5,10 +5,25 @@
 #include "Brdf.glsl"
 #include "Sampling.glsl"
 
+// A side of a surface whose diffuse light is gathered through a white Lambert lobe.
+struct FGatherSide
+{
+	bool bBack;
+	vec3 Weight; // of what is gathered there, of the light over DiffuseReflectance
+};
+
+// U: in [0, 1).
+FGatherSide ChooseSide(FBrdf Brdf, float U)
+{
+	float Chance = BackProbability(Brdf);
+	bool bBack = U < Chance;
+	return FGatherSide(bBack, ShareOfSide(Brdf, bBack) / (bBack ? Chance : 1.0 - Chance));
+}
+
 struct FBrdfSample
 {
-	vec3 Direction; // local frame; z ≤ 0: absorbed
-	vec3 Weight;    // BRDF · n·l / Pdf
+	vec3 Direction; // local frame
+	vec3 Weight;    // BRDF · |n·l| / Pdf; 0: absorbed
 	float Pdf;      // over solid angle; infinite for a delta
 };
 
@@ -30,12 +45,13 @@ FBrdfSample SampleBrdf(FBrdf Brdf, vec3 V, vec3 U)
 			return Sample;
 		}
 		Sample.Direction = reflect(-V, SampleGgxHalfVector(V, Brdf.Alpha, U.xy));
+		if (Sample.Direction.z <= 0.0) { return Sample; }
 	}
 	else
 	{
 		Sample.Direction = SampleCosineHemisphere(U.xy);
+		if (HasBack(Brdf) && U.z - SpecularChance < (1.0 - SpecularChance) * BackProbability(Brdf)) { Sample.Direction.z = -Sample.Direction.z; }
 	}
-	if (Sample.Direction.z <= 0.0) { return Sample; }
 	Sample.Pdf = BrdfPdf(Brdf, V, Sample.Direction);
 	if (Sample.Pdf > 0.0) { Sample.Weight = EvaluateBrdfCos(Brdf, V, Sample.Direction) / Sample.Pdf; }
 	return Sample;

@@ -1,5 +1,6 @@
 // Reads the surface of a pixel from the host's G-buffer. A depth of 0 is the sky.
 // BaseColor texels: rgb base colour, a metallic. Material texels: roughness, occlusion, sqrt(F0), specular.
+// BACK_PIXELS: the host says which pixels show light from behind (FGBuffer::BackAlbedo).
 #ifndef LANTERN_GBUFFER_GLSL
 #define LANTERN_GBUFFER_GLSL
 
@@ -15,6 +16,7 @@ struct FGBufferPoint
 	vec3 BentN;    // shading normal, bent so that it faces the viewer
 	vec3 Ng;       // geometric normal, towards the viewer
 	bool bSure;    // Ng is right; else it may be any
+	bool bBack;    // light from behind counts as well
 };
 
 // Normals that HostSurface derives from depth may be wrong. The lowest bit of the first coordinate in RGBA16_SNORM says which are sure.
@@ -24,6 +26,13 @@ vec2 MarkSure(vec2 OctNormal, bool bSure)
 	int X = clamp(int(round(OctNormal.x * OctSteps)), -32766, 32766) & ~1;
 	return vec2(float(bSure ? X | 1 : X) / OctSteps, OctNormal.y);
 }
+// The lowest bit of the second coordinate says which pixels show light from behind. Without BACK_PIXELS it says nothing.
+vec2 MarkBack(vec2 OctNormal, bool bBack)
+{
+	int Y = clamp(int(round(OctNormal.y * OctSteps)), -32766, 32766) & ~1;
+	return vec2(OctNormal.x, float(bBack ? Y | 1 : Y) / OctSteps);
+}
+bool IsBack(vec2 OctNormal) { return (int(round(OctNormal.y * OctSteps)) & 1) != 0; }
 bool IsSure(vec2 OctNormal) { return (int(round(OctNormal.x * OctSteps)) & 1) != 0; }
 
 float LoadDepth(uint Texture, ivec2 Pixel) { return texelFetch(Textures[Texture], Pixel, 0).x; }
@@ -39,10 +48,27 @@ FGBufferPoint LoadGBufferPoint(FViewConstants View, uint Normals, ivec2 Pixel, f
 	Point.BentN = BendNormal(Point.N, Point.V);
 	Point.Ng = OctDecode(OctNormals.zw);
 	Point.bSure = View.bDerivedNormals == 0u || IsSure(OctNormals.zw);
+#ifdef BACK_PIXELS
+	Point.bBack = IsBack(OctNormals.zw);
+#else
+	Point.bBack = false;
+#endif
 	return Point;
 }
 
-// Returns the origin of rays that leave the surface of a pixel.
+// Turns a surface that shows light from behind to face Direction.
+void FaceDirection(inout FGBufferPoint Point, vec3 Direction)
+{
+	if (!Point.bBack || dot(Point.Ng, Direction) >= 0.0) { return; }
+	Point.Ng = -Point.Ng;
+	Point.N = -Point.N;
+	Point.BentN = -Point.BentN;
+}
+
+// Whether the pixel sends light from Direction to the viewer, if its lobes do: of light from behind, both normals must have it there.
+bool MayShow(FGBufferPoint Point, vec3 Direction, float LocalZ) { return !Point.bBack || dot(Point.Ng, Direction) * LocalZ > 0.0; }
+
+// Returns the origin of rays that leave the surface of a pixel, on the side that Ng faces.
 vec3 RasterRayOrigin(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point)
 {
 	float Distance = dot(View.CameraForward, Point.Relative), Length = length(Point.Relative);
@@ -53,8 +79,17 @@ vec3 RasterRayOrigin(FSceneConstants Scene, FViewConstants View, FGBufferPoint P
 	float Along = DepthError * Facing * (View.bOrthographic != 0u ? 1.0 : Length / Distance);
 	// A derived normal may be any, and could lead to the surface's other side. The way to the camera is free. It is the longer, the more
 	// the surface turns away, and the shading normal knows that, too.
-	vec3 Away = bDerived ? Point.V / max(min(dot(Point.Ng, Point.V), abs(dot(Point.N, Point.V))), 0.1) : Point.Ng;
+	float Turned = Point.bBack && dot(Point.Ng, Point.V) < 0.0 ? -1.0 : 1.0;
+	vec3 Away = bDerived ? Turned * Point.V / max(min(Turned * dot(Point.Ng, Point.V), abs(dot(Point.N, Point.V))), 0.1) : Point.Ng;
 	return OffsetRasterPoint(View.CameraPosition + Point.Relative, Away, Scene.ObjectReach, PixelHeight(View, Length), Along);
+}
+
+// From where rays leave the front of a pixel's surface to where they leave its back.
+vec3 FindBackStep(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point)
+{
+	FGBufferPoint Turned = Point;
+	FaceDirection(Turned, -Point.Ng);
+	return RasterRayOrigin(Scene, View, Turned) - RasterRayOrigin(Scene, View, Point);
 }
 
 // Whether a ray along Direction leaves the surface to the side of Ng. With normals that are not exact, rays that may do so count. Those
@@ -62,7 +97,7 @@ vec3 RasterRayOrigin(FSceneConstants Scene, FViewConstants View, FGBufferPoint P
 // Direction.
 bool LeavesSurface(FViewConstants View, FGBufferPoint Point, vec3 Direction, float Spread)
 {
-	if (!Point.bSure) { return true; }
+	if (!Point.bSure || Point.bBack) { return true; }
 	float Facing = dot(Point.Ng, Direction), Error = View.NormalError + Spread;
 	if (View.bDerivedNormals != 0u)
 	{
@@ -76,7 +111,27 @@ bool LeavesSurface(FViewConstants View, FGBufferPoint Point, vec3 Direction) { r
 
 FBrdf MakeGBufferBrdf(vec4 BaseColor, vec4 Material)
 {
-	return FBrdf(BaseColor.rgb, BaseColor.a, Material.x * Material.x, Material.z * Material.z, Material.w, 1.0);
+	FBrdf Brdf;
+	Brdf.BaseColor = BaseColor.rgb;
+	Brdf.Metallic = BaseColor.a;
+	Brdf.Alpha = Material.x * Material.x;
+	Brdf.F0 = Material.z * Material.z;
+	Brdf.Specular = Material.w;
+	Brdf.Diffuse = 1.0;
+	return MakeFrontLobes(Brdf);
+}
+
+// Texture: sampled index of FGBuffer::BackAlbedo, or NO_TEXTURE. Returns FBrdf::BackAlbedo, and in a what the Lambert base loses to it.
+vec4 LoadBack(uint Texture, ivec2 Pixel) { return Texture != NO_TEXTURE ? texelFetch(Textures[Texture], Pixel, 0) : vec4(0.0); }
+
+// Adds the lobe of light from behind.
+void AddBackLobe(uint Texture, ivec2 Pixel, inout FBrdf InOut)
+{
+#ifdef BACK_PIXELS
+	vec4 Back = LoadBack(Texture, Pixel);
+	InOut.Diffuse -= Back.a;
+	InOut.BackAlbedo = Back.rgb;
+#endif
 }
 
 #endif

@@ -37,9 +37,10 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 #endif
 #ifdef HAS_SUN
 	float SunVisibility = Push.SunVisibility != NO_TEXTURE ? texelFetch(Textures[Push.SunVisibility], Pixel, 0).x : 1.0;
-	if (SunVisibility > 0.0 && SunSharesChannel(Scene, Channels))
+	vec3 ToSun = -Scene.SunDirection * Basis;
+	if (SunVisibility > 0.0 && SunSharesChannel(Scene, Channels) && MayShow(Point, -Scene.SunDirection, ToSun.z))
 	{
-		Radiance += EvaluateBrdfCos(Brdf, LocalV, -Scene.SunDirection * Basis) * Scene.SunColor * (Scene.SunIrradiance * SunVisibility);
+		Radiance += EvaluateBrdfCos(Brdf, LocalV, ToSun) * Scene.SunColor * (Scene.SunIrradiance * SunVisibility);
 	}
 #endif
 #ifdef HAS_LIGHTS
@@ -52,14 +53,16 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 	{
 		if (!SharesChannel(Lights.Data[I], Channels)) { continue; }
 #ifdef HAS_AREA_LIGHTS
-		if (EstimateLight(Scene, Lights.Data[I], P, Point.Ng) <= 0.0) { continue; }
+		if (!Point.bBack && EstimateLight(Scene, Lights.Data[I], P, Point.Ng) <= 0.0) { continue; }
 		FLightSample Sample = SampleLight(Scene, Lights.Data[I], P, NextRandom4(Random).xy);
 #else
 		FLightSample Sample = SampleLight(Scene, Lights.Data[I], P, vec2(0.0));
 #endif
-		if (MaxComponent(Sample.Irradiance) > 0.0 && dot(Point.Ng, Sample.Direction) > 0.0)
+		vec3 ToLight = Sample.Direction * Basis;
+		bool bReaches = Point.bBack ? MayShow(Point, Sample.Direction, ToLight.z) : dot(Point.Ng, Sample.Direction) > 0.0;
+		if (MaxComponent(Sample.Irradiance) > 0.0 && bReaches)
 		{
-			Radiance += EvaluateBrdfCos(Brdf, LocalV, Sample.Direction * Basis) * Sample.Irradiance;
+			Radiance += EvaluateBrdfCos(Brdf, LocalV, ToLight) * Sample.Irradiance;
 		}
 	}
 #endif
@@ -122,6 +125,7 @@ vec3 ShadeIndirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FBrd
 	if (Push.ToonNormals != NO_TEXTURE) { GatherN = BendNormal(OctDecode(texelFetch(Textures[Push.ToonNormals], Pixel, 0).xy), Point.V); }
 #endif
 	Ambient = SkyAmbient(Scene, Push.SkyLight, GatherN) * Material.y;
+	if (HasBack(Brdf)) { Ambient = mix(Ambient, SkyAmbient(Scene, Push.SkyLight, -GatherN) * Material.y, ShareOfSide(Brdf, true)); }
 	Mirrored = SkyAmbient(Scene, Push.SkyLight, reflect(-Point.V, Point.BentN)) * Material.y;
 	Surroundings = GuessSurroundings(Scene, SkyAmbient(Scene, Push.SkyLight, GatherN), Visibility) * Material.y;
 #endif
@@ -153,6 +157,7 @@ vec3 ShadeSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, float
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	vec4 Material = texelFetch(Textures[Push.Material], Pixel, 0);
 	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), Material);
+	AddBackLobe(Push.BackAlbedo, Pixel, Brdf);
 	mat3 Basis = MakeBasis(Point.BentN);
 	vec3 LocalV = Point.V * Basis;
 	return texelFetch(Textures[Push.Emissive], Pixel, 0).rgb + ShadeDirect(Scene, View, Pixel, Point, Brdf, Basis, LocalV) +

@@ -13,7 +13,7 @@ bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, 
 	FLightWalk Walk = WalkLights(Scene, Point.P, false); // the cells of all pixels are asked for
 	for (uint I = NextLight(Walk); I < Scene.LightCount; I = NextLight(Walk))
 	{
-		float Weight = EstimateLight(Scene, Lights.Data[I], Point.P, Point.Horizon);
+		float Weight = EstimateLightAt(Scene, Lights.Data[I], Point);
 		if (Weight <= 0.0 || !SharesChannel(Lights.Data[I], Point.Channels)) { continue; }
 		Total += Weight;
 		float Probability = Weight / Total;
@@ -90,7 +90,7 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 		Reflected = ReflectedRoughness(Push.Emitters);
 		Candidates = Search.Candidates;
 #endif
-		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Reflected);
+		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Push.BackAlbedo, Pixel, Reflected);
 		ChooseOfTable(Scene, View, Point, Local, Pixel, Candidates, Count, Choices, Lit, bAsks);
 #ifdef LOCAL_EMISSIVE
 		for (uint I = 0u; I < CHOSEN_RAYS; ++I)

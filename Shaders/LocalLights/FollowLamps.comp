@@ -136,7 +136,7 @@ const float OtherLampError = 4.0; // variance of how visible a new lamp is, in s
 vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uint Emitters, uvec2 Pixel, float Depth)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Push.Channels, Pixel, Depth);
-	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, 0.0); // what rays show is of emitters alone
+	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Push.BackAlbedo, Pixel, 0.0); // what rays show is of emitters alone
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
 	vec4 Sum = vec4(0.0);
 	for (uint I = 0u; I < Count; ++I)

@@ -91,12 +91,13 @@ struct FLocalBrdf
 	float EmitterSpecular; // share of what its specular lobe reflects of emissive triangles that counts here
 };
 
-// ReflectedRoughness: see EmissionOfRays.
-FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2 Pixel, float ReflectedRoughness)
+// BackAlbedo: see LoadBack. ReflectedRoughness: see EmissionOfRays.
+FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uint BackAlbedo, uvec2 Pixel, float ReflectedRoughness)
 {
 	FLocalBrdf Out;
 	vec4 Texel = texelFetch(Textures[Material], ivec2(Pixel), 0);
 	Out.Brdf = MakeGBufferBrdf(texelFetch(Textures[BaseColor], ivec2(Pixel), 0), Texel);
+	AddBackLobe(BackAlbedo, ivec2(Pixel), Out.Brdf);
 	Out.Brdf.Alpha = max(Out.Brdf.Alpha, 2.0 * MinAlpha); // a perfect mirror would show no point light
 	Out.Basis = MakeBasis(Point.Surface.BentN);
 	Out.EmitterSpecular = 1.0;
@@ -104,6 +105,13 @@ FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2
 	Out.EmitterSpecular -= EmissionOfRays(Texel.x, ReflectedRoughness);
 #endif
 	return Out;
+}
+
+// As EstimateLight, of what reaches any side of the pixel that counts.
+float EstimateLightAt(FSceneConstants Scene, FLightData Light, FLocalPoint Point)
+{
+	float Estimate = EstimateLight(Scene, Light, Point.P, Point.Horizon);
+	return Estimate <= 0.0 && Point.Surface.bBack ? EstimateLight(Scene, Light, Point.P, -Point.Horizon) : Estimate;
 }
 
 // Two numbers in [0, 1) that stratify over the pixels of a tile and over frames. Purpose: each has numbers of its own.
@@ -144,8 +152,10 @@ FLobes ReflectLight(FLocalPoint Point, FLocalBrdf Local, FLightSample Sample, ui
 {
 	FLobes Lobes;
 	vec3 L = Sample.Direction * Local.Basis;
+	Lobes.Diffuse = Lobes.Specular = vec3(0.0);
+	if (!MayShow(Point.Surface, Sample.Direction, L.z)) { return Lobes; }
 	EvaluateLobes(Local.Brdf, Point.Surface.V * Local.Basis, L, Lobes.Diffuse, Lobes.Specular);
-	vec3 Incident = Sample.Irradiance * L.z; // no lobe reflects what comes from below
+	vec3 Incident = Sample.Irradiance * abs(L.z);
 	Lobes.Diffuse *= Incident;
 	Lobes.Specular *= Incident;
 #ifdef LOCAL_EMISSIVE

@@ -20,6 +20,7 @@ bool SeesLight(uint Index, uint Light, uint Number, bool bFiltered)
 	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 	if (!ReachesLight(View, Point, Sample)) { return false; }
 	DrawLeastTransmittance(Index, FirstLocalNumber + Number, bFiltered);
+	FaceDirection(Point.Surface, Sample.Direction);
 	vec3 Origin = RasterRayOrigin(Scene, View, Point.Surface), Direction = Sample.Direction;
 	float Length = LightRayLength(Sample, Point.P, Scene.ObjectReach);
 	if (Sample.Distance < LightInfinity)

@@ -41,7 +41,7 @@ uint SourceLight(FTileSource Source, uint I) { return I; }
 // Whether a light may bring something to the pixel.
 bool MayLight(FSceneConstants Scene, FLightData Light, FLocalPoint Point)
 {
-	return SharesChannel(Light, Point.Channels) && EstimateLight(Scene, Light, Point.P, Point.Horizon) > 0.0;
+	return SharesChannel(Light, Point.Channels) && EstimateLightAt(Scene, Light, Point) > 0.0;
 }
 
 #ifdef LIGHT_MASK
@@ -98,7 +98,7 @@ void ListLights(FSceneConstants Scene)
 	for (uint I = 0u; I < CandidateCount; ++I)
 	{
 		if ((Reached[2u * I] | Reached[2u * I + 1u]) == 0u) { continue; }
-		if (Tile.Count == (Push.Limits & 0xffffu))
+		if (Tile.Count == (Push.Limits & 0xffu))
 		{
 			Tile.Count = TILE_LIGHTS_MANY;
 			Tile.bChooses = 1u;

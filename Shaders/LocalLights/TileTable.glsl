@@ -24,6 +24,9 @@ shared vec3 SamplerP[TileSamplers], SamplerN[TileSamplers];
 #ifdef HAS_LIGHT_CHANNELS
 shared uint SamplerChannels[TileSamplers];
 #endif
+#ifdef BACK_PIXELS
+shared bool bSamplerBack[TileSamplers]; // see FGBufferPoint::bBack
+#endif
 shared float SamplerReach[TileSamplers]; // metres: how far the pixels may lie from it that it stands for
 shared uvec2 PreviousTile; // x = NoTile: none
 shared FGuideLight Remembered[TILE_GUIDE_LIGHTS]; // of PreviousTile
@@ -81,18 +84,23 @@ void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint 
 #ifdef HAS_LIGHT_CHANNELS
 		SamplerChannels[Mine] = Point.Channels;
 #endif
+#ifdef BACK_PIXELS
+		bSamplerBack[Mine] = Point.Surface.bBack;
+#endif
 		float Distance = length(Point.Surface.Relative), Cosine = max(abs(dot(Point.Surface.Ng, Point.Surface.V)), 0.1);
 		SamplerReach[Mine] = 2.5 * PixelHeight(View, Distance) / Cosine;
 	}
 	barrier();
 }
 
+uint PreviousGuidePlace() { return (Push.Limits >> 8u) & 0xffu; }
+
 // Finds the tile of the previous frame that showed a point of this one, as if nothing but the camera had moved. One thread. Place: of the
 // pixel that shows the point.
 void FindPreviousTile(FViewConstants View, uvec2 Tile, uint Place, vec3 P)
 {
 	PreviousTile = uvec2(NoTile);
-	if (Push.PreviousGuide == PREVIOUS_GUIDE_NONE) { return; }
+	if (PreviousGuidePlace() == PREVIOUS_GUIDE_NONE) { return; }
 	vec3 Relative = P - View.CameraPosition;
 	vec3 Motion = ComputeMotion(View, Relative, Relative + View.CameraMotion);
 	vec2 Previous = vec2(TilePixel(Tile, Place)) + 0.5 + Motion.xy;
@@ -107,7 +115,7 @@ FAddress PreviousGuide(FViewConstants View)
 {
 	const uint SizeOfGuide = 8u * TILE_GUIDE_LIGHTS;
 	FAddress Bytes = FAddress(TileIndex(View, uvec2(0u, (View.Height + TILE_SIZE - 1u) / TILE_SIZE))) * SizeOfGuide;
-	return Push.PreviousGuide == PREVIOUS_GUIDE_BEFORE ? Push.Guide - Bytes : Push.Guide + Bytes;
+	return PreviousGuidePlace() == PREVIOUS_GUIDE_BEFORE ? Push.Guide - Bytes : Push.Guide + Bytes;
 }
 
 void LoadRemembered(FViewConstants View, uint Place)
@@ -185,11 +193,19 @@ float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
 #ifdef HAS_LIGHT_CHANNELS
 	if (!SharesChannel(Light, SamplerChannels[I])) { return 0.0; }
 #endif
-	float Estimate = EstimateLight(Scene, Light, SamplerP[I], SamplerN[I]);
+	vec3 N = SamplerN[I];
+	float Estimate = EstimateLight(Scene, Light, SamplerP[I], N);
+#ifdef BACK_PIXELS
+	if (Estimate <= 0.0 && bSamplerBack[I])
+	{
+		N = -N;
+		Estimate = EstimateLight(Scene, Light, SamplerP[I], N);
+	}
+#endif
 	if (Estimate <= 0.0 || LightType(Light) == LIGHT_DIRECTIONAL) { return Estimate; }
 	vec3 To = LightPosition(Scene, Light) - SamplerP[I];
 	float Distance = max(length(To), 1.0e-4), Closest = max(Distance - SamplerReach[I], 0.3 * SamplerReach[I]);
-	float Cosine = clamp((dot(To, SamplerN[I]) + SamplerReach[I]) / Distance, 0.1, 1.0), Nearer = max(Distance / Closest, 1.0);
+	float Cosine = clamp((dot(To, N) + SamplerReach[I]) / Distance, 0.1, 1.0), Nearer = max(Distance / Closest, 1.0);
 	return Estimate * (Cosine * Nearer * Nearer);
 }
 

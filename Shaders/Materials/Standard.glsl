@@ -20,6 +20,9 @@ struct FMaterialSurface
 	float F0;        // reflectance of the dielectric at normal incidence
 	float Specular;  // weight of the dielectric layer
 	float Transmission; // share of what the layer lets in that shines through. Counts only where FMaterialData::Transmission is not 0
+	// Of the diffuse layer's light, what leaves the surface on its other side. Count only where FMaterialData::DiffuseTransmission is not 0.
+	float DiffuseTransmission;     // share
+	vec3 DiffuseTransmissionColor; // factor of what leaves there, as BaseColor is of the rest
 };
 
 // Blended surfaces of at least this opacity are solid: the raster shows them. What shows less is a layer before it.
@@ -133,6 +136,21 @@ float EvaluateTransmission(FMaterialData Material, FMaterialInputs Inputs)
 	return bTextured ? Material.Transmission * MaterialTexture(Material, Inputs, TEXTURE_TRANSMISSION).r : Material.Transmission;
 }
 
+void EvaluateDiffuseTransmission(FMaterialData Material, FMaterialInputs Inputs, inout FMaterialSurface Surface)
+{
+	Surface.DiffuseTransmission = Material.DiffuseTransmission;
+	Surface.DiffuseTransmissionColor = Material.DiffuseTransmissionColor;
+	if (Material.DiffuseTransmission <= 0.0) { return; }
+	if (HasTexture(Material, TEXTURE_DIFFUSE_TRANSMISSION))
+	{
+		Surface.DiffuseTransmission *= MaterialTexture(Material, Inputs, TEXTURE_DIFFUSE_TRANSMISSION).a;
+	}
+	if (HasTexture(Material, TEXTURE_DIFFUSE_TRANSMISSION_COLOR))
+	{
+		Surface.DiffuseTransmissionColor *= MaterialTexture(Material, Inputs, TEXTURE_DIFFUSE_TRANSMISSION_COLOR).rgb;
+	}
+}
+
 // Override: value of r.RT.Material.Override; 0: none.
 FMaterialSurface EvaluateStandard(FMaterialData Material, FMaterialInputs Inputs, uint Override)
 {
@@ -149,7 +167,8 @@ FMaterialSurface EvaluateStandard(FMaterialData Material, FMaterialInputs Inputs
 		Surface.Roughness = 1.0;
 		Surface.F0 = 0.0;
 		Surface.Specular = 0.0;
-		Surface.Transmission = 0.0;
+		Surface.Transmission = Surface.DiffuseTransmission = 0.0;
+		Surface.DiffuseTransmissionColor = vec3(0.0);
 		Surface.Normal = NormalizeOr(Inputs.Normal, vec3(0.0, 0.0, 1.0));
 		return Surface;
 	}
@@ -169,6 +188,7 @@ FMaterialSurface EvaluateStandard(FMaterialData Material, FMaterialInputs Inputs
 	Surface.F0 = Ratio * Ratio;
 	Surface.Specular = Material.Specular;
 	Surface.Transmission = EvaluateTransmission(Material, Inputs);
+	EvaluateDiffuseTransmission(Material, Inputs, Surface);
 	Surface.Normal = EvaluateNormal(Material, Inputs);
 	return Surface;
 }

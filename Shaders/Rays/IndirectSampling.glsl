@@ -44,6 +44,39 @@ uint RecordPath(FGathered Gathered, vec3 N)
 }
 #endif
 
+#ifdef BACK_PIXELS
+// The thread sets these before: whether light from behind counts as well, and the surface of the pixel. What is gathered is then that of both
+// sides, over DiffuseReflectance.
+bool bGathersBack = false;
+FBrdf GatheredBrdf;
+#endif
+
+// One side of a pixel's surface, that a path leaves.
+struct FPathSide
+{
+	FGBufferPoint Point; // turned, so that it faces that side
+	vec3 V;              // towards the viewer, mirrored if that is on the other side
+	vec3 Weight;         // of the path's light
+	float FrontWeight;   // of what the second lobe reflects of it
+};
+
+FPathSide ChoosePathSide(FGBufferPoint Point, inout FRandom Random)
+{
+	FPathSide Side = FPathSide(Point, Point.V, vec3(1.0), 1.0);
+#ifdef BACK_PIXELS
+	if (!bGathersBack) { return Side; }
+	FGatherSide Chosen = ChooseSide(GatheredBrdf, NextRandom4(Random).x);
+	Side.Weight = Chosen.Weight;
+	Side.FrontWeight = Chosen.bBack ? 0.0 : 1.0 / (1.0 - BackProbability(GatheredBrdf));
+	if (Chosen.bBack)
+	{
+		FaceDirection(Side.Point, -Point.Ng);
+		Side.V = reflect(Point.V, Point.BentN);
+	}
+#endif
+	return Side;
+}
+
 #ifdef COUNTS_ENDS
 void CountEnd(); // of the includer, behind each path
 #endif
@@ -54,28 +87,33 @@ void CountEnd(); // of the includer, behind each path
 vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, FGBufferPoint Point, FBrdf Lobe, uint Samples,
                             uint MaxBounces, uint Salt)
 {
-	vec3 P = RasterRayOrigin(Scene, View, Point);
-	mat3 Basis = MakeBasis(Point.BentN);
-	vec3 V = Point.V * Basis;
 	uint StreamSeed = HashPcg(View.Seed + Salt);
 	uint Seed = HashPcg(Pixel.x + HashPcg(Pixel.y + StreamSeed));
 	vec3 Sum = vec3(0.0);
 #ifdef SECOND_LOBE
 	vec3 SecondSum = vec3(0.0);
+	float ShareOfSecond = SecondShare;
 #endif
 	for (uint Sample = 0; Sample < Samples; ++Sample)
 	{
 		uint Index = View.FrameIndex * Samples + Sample;
 		FRandom Random = MakeRandom(Pixel, Index, StreamSeed);
-#ifdef GUIDED_PATHS
-		ChooseGuide(View, Point, Pixel, NextRandom4(Random).xy);
+		FPathSide Side = ChoosePathSide(Point, Random);
+		vec3 P = RasterRayOrigin(Scene, View, Side.Point);
+		mat3 Basis = MakeBasis(Side.Point.BentN);
+		vec3 V = Side.V * Basis;
+#ifdef SECOND_LOBE
+		SecondShare = Side.FrontWeight > 0.0 ? ShareOfSecond : 0.0;
 #endif
-		FGathered Gathered = Gather(Scene, Lobe, Basis, V, P, Point.Ng, SobolOwen2(Index, Seed), MaxBounces, Random);
+#ifdef GUIDED_PATHS
+		ChooseGuide(View, Side.Point, Pixel, NextRandom4(Random).xy);
+#endif
+		FGathered Gathered = Gather(Scene, Lobe, Basis, V, P, Side.Point.Ng, SobolOwen2(Index, Seed), MaxBounces, Random);
 #ifdef COUNTS_ENDS
 		CountEnd();
 #endif
 #ifdef GUIDED_PATHS
-		if (Sample == 0u) { PathRecord = RecordPath(Gathered, Point.BentN); }
+		if (Sample == 0u) { PathRecord = RecordPath(Gathered, Side.Point.BentN); }
 #endif
 #ifdef SHARED_PATHS
 		// What others take over is theirs to light the pixel by.
@@ -84,10 +122,11 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 			Gathered.Light = vec3(0.0);
 		}
 #endif
-		vec3 L = Gathered.Light + Gathered.Emission;
+		vec3 L = (Gathered.Light + Gathered.Emission) * Side.Weight;
 		Sum += mix(L, vec3(0.0), isnan(L));
 #ifdef SECOND_LOBE
 		L = Gathered.Light * WeighSecond(Basis, V, Gathered.Direction) + Gathered.Emission * WeighSecond(Basis, V, Gathered.EmissionDirection);
+		L *= Side.FrontWeight;
 		SecondSum += mix(L, vec3(0.0), isnan(L));
 #endif
 	}

@@ -1,5 +1,5 @@
-// The payload of material rays: 36 bytes, or 44 with HAS_TRANSMISSION, hold all that shading needs, and who was hit. The quantisation is finer than the accuracy that the
-// reference must reach. Base colours are unorm16, since a closed room of albedo 0.9 multiplies their error by ten. Emission
+// The payload of material rays: 36 bytes, and 8 more with each of HAS_TRANSMISSION and HAS_DIFFUSE_TRANSMISSION, hold all that shading needs,
+// and who was hit. The quantisation is finer than the accuracy that the reference must reach. Base colours are unorm16, since a closed room of albedo 0.9 multiplies their error by ten. Emission
 // is fp16 (relative error ≤ 0.05 %), directions are octahedral.
 //   W0 distance                      W4 base colour b 15 | foliage 1 | roughness 12 | channels 4, the lower ones
 //   W1 shading normal, octahedral    W5 flags 2 | sqrt(F0) 12 | specular 8 | metallic 10
@@ -8,6 +8,8 @@
 //                                    W8 object
 // HAS_TRANSMISSION: the upper 8 bits of W8, which no object needs, are inside 1 | solid 1 | transmissive 1 | blended 1. Two words are added.
 //   W9 absorption rg fp16            W10 absorption b fp16 | transmission unorm16
+// HAS_DIFFUSE_TRANSMISSION: two words are added.
+//   W11 albedo of the other side, rg unorm16   W12 its b unorm16 | share of the diffuse layer that leaves there unorm16
 // The four fp16 are never negative: their signs are the upper channels.
 #ifndef LANTERN_MATERIAL_PAYLOAD_GLSL
 #define LANTERN_MATERIAL_PAYLOAD_GLSL
@@ -20,6 +22,9 @@ struct FMaterialPayload
 	uint W1, W2, W3, W4, W5, W6, W7, W8;
 #ifdef HAS_TRANSMISSION
 	uint W9, W10;
+#endif
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	uint W11, W12;
 #endif
 };
 
@@ -57,6 +62,10 @@ struct FMaterialHit
 	float Transmission;   // FMaterialSurface::Transmission
 	vec3 Absorption;      // of HIT_SOLID, 1/m
 #endif
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	vec3 BackAlbedo;      // see FBrdf
+	float DiffuseTransmission; // FMaterialSurface::DiffuseTransmission
+#endif
 };
 
 // Two bits where two fp16 have their signs.
@@ -82,6 +91,10 @@ FMaterialPayload PackHit(FMaterialHit Hit)
 	Payload.W8 |= (Hit.Flags & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE | HIT_BLENDED)) << 21;
 	Payload.W9 = packHalf2x16(min(Hit.Absorption.rg, vec2(65504.0)));
 	Payload.W10 = (packHalf2x16(vec2(min(Hit.Absorption.b, 65504.0), 0.0)) & 0xffffu) | (uint(clamp(Hit.Transmission, 0.0, 1.0) * 65535.0 + 0.5) << 16);
+#endif
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	Payload.W11 = packUnorm2x16(Hit.BackAlbedo.rg);
+	Payload.W12 = packUnorm2x16(vec2(Hit.BackAlbedo.b, Hit.DiffuseTransmission));
 #endif
 	return Payload;
 }
@@ -110,6 +123,11 @@ FMaterialHit UnpackHit(FMaterialPayload Payload)
 	Hit.Absorption = vec3(unpackHalf2x16(Payload.W9), unpackHalf2x16(Payload.W10).x);
 #else
 	Hit.Object = Payload.W8;
+#endif
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	vec2 BlueAndShare = unpackUnorm2x16(Payload.W12);
+	Hit.BackAlbedo = vec3(unpackUnorm2x16(Payload.W11), BlueAndShare.x);
+	Hit.DiffuseTransmission = BlueAndShare.y;
 #endif
 	return Hit;
 }

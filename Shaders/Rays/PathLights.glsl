@@ -3,6 +3,7 @@
 //   Basis  local frame whose z is the shading normal; Direction * Basis is local, Basis * Direction is world
 //   V      towards the viewer, local;  P  ray origin, already offset from the surface
 //   Ng     geometric normal, towards the viewer;  U  random numbers in [0, 1)
+//   HAS_DIFFUSE_TRANSMISSION: light from behind counts as well, see BackStep.
 //   bCharacter  see Casters.glsl;  Channels  of the surface's object, see LightProfile.glsl
 #ifndef LANTERN_PATH_LIGHTS_GLSL
 #define LANTERN_PATH_LIGHTS_GLSL
@@ -11,6 +12,35 @@
 #if defined(HAS_LIGHTS) && defined(LIGHT_CELLS_OF_VIEW)
 #include "../Library/LightCells.glsl"
 #endif
+
+#ifdef HAS_DIFFUSE_TRANSMISSION
+// From P to where rays leave the other side of the vertex. The thread sets it with each vertex whose BRDF has a back lobe.
+vec3 BackStep = vec3(0.0);
+#endif
+
+// Whether a surface sends light from Direction to the viewer: both its normals must have it on one side. LocalZ: of Direction.
+bool IsLitFrom(FBrdf Brdf, vec3 Direction, vec3 Ng, float LocalZ)
+{
+	float Side = dot(Direction, Ng);
+	return Side > 0.0 ? LocalZ > 0.0 : HasBack(Brdf) && Side < 0.0 && LocalZ < 0.0;
+}
+
+// Returns where a ray along Direction leaves the vertex.
+vec3 StartOfRay(vec3 P, vec3 Direction, vec3 Ng)
+{
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	return dot(Direction, Ng) < 0.0 ? P + BackStep : P;
+#else
+	return P;
+#endif
+}
+
+// Returns the density of light sampling of the sky, over that of a cosine: each side has the chance of its lobe.
+float SkyChance(FBrdf Brdf, float LocalZ)
+{
+	float Back = BackProbability(Brdf);
+	return LocalZ < 0.0 ? Back : 1.0 - Back;
+}
 
 // Returns the share of light that arrives along a ray, by luminance.
 float Transmittance(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
@@ -56,11 +86,11 @@ vec3 SampleSun(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 {
 	bool bPointSun = Scene.SunOneMinusCos <= 0.0;
 	vec3 ToLight = bPointSun ? -Scene.SunDirection : SampleSunDirection(Scene, U);
-	if (dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
 	vec3 LocalToLight = ToLight * Basis;
+	if (!IsLitFrom(Brdf, ToLight, Ng, LocalToLight.z)) { return vec3(0.0); }
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
 	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
-	BrdfCos *= LightThrough(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30);
+	BrdfCos *= LightThrough(Scene, SunCasters(bCharacter), StartOfRay(P, ToLight, Ng), ToLight, 1.0e30);
 	if (BrdfCos == vec3(0.0)) { return vec3(0.0); }
 	if (bPointSun) { return BrdfCos * Scene.SunColor * Scene.SunIrradiance; }
 	float Pdf = SunPdf(Scene);
@@ -71,19 +101,30 @@ vec3 SampleSun(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 #ifdef HAS_SKY
 vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec2 U)
 {
+	float Back = BackProbability(Brdf);
+	bool bBack = U.x < Back;
+	U.x = bBack ? U.x / Back : (U.x - Back) / (1.0 - Back);
 	vec3 LocalToLight = SampleCosineHemisphere(U);
+	if (bBack) { LocalToLight.z = -LocalToLight.z; }
 	vec3 ToLight = Basis * LocalToLight;
-	if (LocalToLight.z <= 0.0 || dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
+	if (LocalToLight.z == 0.0 || !IsLitFrom(Brdf, ToLight, Ng, LocalToLight.z)) { return vec3(0.0); }
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
 	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
-	BrdfCos *= LightThrough(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30);
+	BrdfCos *= LightThrough(Scene, SunCasters(bCharacter), StartOfRay(P, ToLight, Ng), ToLight, 1.0e30);
 	if (BrdfCos == vec3(0.0)) { return vec3(0.0); }
-	float Pdf = LocalToLight.z / Pi;
+	float Pdf = abs(LocalToLight.z) / Pi * SkyChance(Brdf, LocalToLight.z);
 	return BrdfCos * SampleSkyRadiance(Scene, ToLight) * (PowerHeuristic(Pdf, OtherPdf(Brdf, V, LocalToLight, bCharacter)) / Pdf);
 }
 #endif
 
 #ifdef HAS_LIGHTS
+// As EstimateLight, of what reaches either side that has a lobe.
+float EstimateLightOf(FSceneConstants Scene, FBrdf Brdf, FLightData Light, vec3 P, vec3 Ng)
+{
+	float Estimate = EstimateLight(Scene, Light, P, Ng);
+	return Estimate <= 0.0 && HasBack(Brdf) ? EstimateLight(Scene, Light, P, -Ng) : Estimate;
+}
+
 // Samples one light with a probability proportional to EstimateLight, by weighted reservoir sampling over all that may matter.
 // U: chooses the light; PointU: the point on one with an extent. ToLight: gets the direction, which means nothing where the result is 0.
 // LIGHT_CELLS_OF_VIEW: looks them up in light cells. Not defined, as in the reference: visits all lights.
@@ -101,7 +142,7 @@ vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, ve
 	for (uint I = 0; I < Scene.LightCount; ++I)
 #endif
 	{
-		float Weight = EstimateLight(Scene, Lights.Data[I], P, Ng);
+		float Weight = EstimateLightOf(Scene, Brdf, Lights.Data[I], P, Ng);
 		if (Weight <= 0.0 || !SharesChannel(Lights.Data[I], Channels)) { continue; }
 		TotalWeight += Weight;
 		float Probability = Weight / TotalWeight;
@@ -118,11 +159,13 @@ vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, ve
 	FLightData Light = Lights.Data[Chosen];
 	FLightSample Sample = SampleLight(Scene, Light, P, PointU);
 	ToLight = Sample.Direction;
-	if (MaxComponent(Sample.Irradiance) <= 0.0 || dot(Sample.Direction, Ng) <= 0.0) { return vec3(0.0); }
-	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, Sample.Direction * Basis);
+	vec3 LocalToLight = Sample.Direction * Basis;
+	if (MaxComponent(Sample.Irradiance) <= 0.0 || !IsLitFrom(Brdf, Sample.Direction, Ng, LocalToLight.z)) { return vec3(0.0); }
+	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
 	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
 	bool bCastsShadow = (Light.Flags & LIGHT_CASTS_SHADOW) != 0u;
-	if (bCastsShadow) { BrdfCos *= LightThrough(Scene, LocalCasters(bCharacter), P, Sample.Direction, LightRayLength(Sample, P, Scene.ObjectReach)); }
+	vec3 Start = StartOfRay(P, Sample.Direction, Ng);
+	if (bCastsShadow) { BrdfCos *= LightThrough(Scene, LocalCasters(bCharacter), Start, Sample.Direction, LightRayLength(Sample, P, Scene.ObjectReach)); }
 	return BrdfCos * Sample.Irradiance * (TotalWeight / ChosenWeight);
 }
 
@@ -197,7 +240,7 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 	if (DistanceSquared < 1.0e-12) { return vec3(0.0); }
 	float Distance = sqrt(DistanceSquared);
 	ToLight /= Distance;
-	if (dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
+	if (!IsLitFrom(Brdf, ToLight, Ng, (ToLight * Basis).z)) { return vec3(0.0); }
 
 	FSectionData Section = FSectionRef(Scene.Sections).Data[Triangle.Section];
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
@@ -220,7 +263,7 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 	// The shadow ray stops short of the emitter, the more so the more grazing it arrives.
 	float Margin = PositionError(Point, Scene.ObjectReach, Distance) / max(CosAtLight, 0.1);
 	if (MaxComponent(Emission) <= 0.0) { return vec3(0.0); }
-	BrdfCos *= LightThrough(Scene, Casters, P, ToLight, max(Distance - Margin, 0.0));
+	BrdfCos *= LightThrough(Scene, Casters, StartOfRay(P, ToLight, Ng), ToLight, max(Distance - Margin, 0.0));
 	if (BrdfCos == vec3(0.0)) { return vec3(0.0); }
 	float ToSolidAngle = DistanceSquared / CosAtLight;
 	float Pdf = Chance * 2.0 / Doubled * ToSolidAngle;

@@ -10,6 +10,7 @@
 // HAS_TRANSMISSION: light shines through some surfaces, see Transmission.glsl. Paths go on behind them, and rays to lights pass straight on.
 //   TINTED_SHADOWS: these rays take what such surfaces leave of the light, as the reference does. Else they take its luminance alone.
 //   LIKELIEST_PASSAGE: paths take the likelier side of such surfaces, and cells of one size. Neither has noise, which no filter removes.
+// HAS_DIFFUSE_TRANSMISSION: some surfaces scatter light through. Paths leave them on either side.
 // STANDARD_HITS, STANDARD_HITS_UNSEEN: see MaterialRay.glsl.
 // GUIDED_PATHS, SECOND_LOBE: see PathDirections.glsl. Gather then takes a white Lambert lobe alone.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
@@ -68,7 +69,7 @@ bool bSeenInMirrors = false; // mirrors alone lie between the camera and the end
 #endif
 
 // Returns the radiance of the sky and the sun's disk along a ray that hits nothing, weighted against next-event estimation.
-// Pdf: with which Direction was sampled; NdotL: its cosine at the vertex that it left; Channels: of the object there.
+// Pdf: with which Direction was sampled; NdotL: π times the density that light sampling of the sky has there; Channels: of the object there.
 vec3 ShadeMiss(FSceneConstants Scene, vec3 Direction, float Pdf, float NdotL, uint Channels)
 {
 	vec3 L = vec3(0.0);
@@ -119,8 +120,23 @@ FBrdf MakeBrdf(FMaterialHit Hit)
 	Brdf.F0 = Hit.F0;
 	Brdf.Specular = Hit.Specular;
 	Brdf.Diffuse = 1.0;
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	Brdf.Diffuse -= Hit.DiffuseTransmission;
+	Brdf.BackAlbedo = Hit.BackAlbedo;
+#endif
 	return Brdf;
 }
+
+#ifdef HAS_DIFFUSE_TRANSMISSION
+// Of a path's first vertex, where its ray has arrived at an offset from the surface already. The thread may set it before.
+vec3 FirstBackStep = vec3(0.0);
+
+void SetBackStep(FSceneConstants Scene, vec3 P, vec3 Ng, float Distance)
+{
+	BackStep = FirstBackStep - 2.0 * PositionError(P, Scene.ObjectReach, Distance) * Ng;
+	FirstBackStep = vec3(0.0);
+}
+#endif
 
 #ifdef HAS_TRANSMISSION
 // What a path through surfaces that transmit has with it.
@@ -281,6 +297,9 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #endif
 
 		vec3 P = OffsetRayOrigin(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
+#ifdef HAS_DIFFUSE_TRANSMISSION
+		SetBackStep(Scene, P, Hit.GeometricNormal, Hit.Distance);
+#endif
 		vec3 V = -Direction;
 		mat3 Basis = MakeBasis(BendNormal(Hit.Normal, V));
 		FBrdf Brdf = MakeBrdf(Hit);
@@ -317,19 +336,19 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 
 		vec4 U = NextRandom4(Random);
 		FBrdfSample Sample = SampleBrdf(Brdf, LocalV, U.xyz);
-		if (Sample.Direction.z <= 0.0) { return Radiance; }
+		if (Sample.Weight == vec3(0.0)) { return Radiance; }
 		Throughput *= Sample.Weight;
 #ifdef HAS_LIGHT_EMISSION
 		Throughput *= ChooseShown(isinf(Sample.Pdf) ? vec3(Shows == SHOWS_MIRRORED) : ShownShare(Brdf, LocalV, Sample.Direction, Shows), U.w, bShown);
 #endif
 		Direction = Basis * Sample.Direction;
-		if (dot(Direction, Hit.GeometricNormal) <= 0.0) { return Radiance; }
+		if (!IsLitFrom(Brdf, Direction, Hit.GeometricNormal, Sample.Direction.z)) { return Radiance; }
 		Pdf = bCharacter && !isinf(Sample.Pdf) ? 0.0 : Sample.Pdf; // see OtherPdf
-		NdotL = Sample.Direction.z;
+		NdotL = abs(Sample.Direction.z) * SkyChance(Brdf, Sample.Direction.z);
 
 		if (Bounce >= 3u && EndsByRoulette(Throughput, Random)) { return Radiance; }
 		Channels = Hit.Channels;
-		Origin = P;
+		Origin = StartOfRay(P, Direction, Hit.GeometricNormal);
 #ifdef HAS_TRANSMISSION
 		ScatterPassages(Passages);
 #endif

@@ -105,6 +105,24 @@ void SmoothRadiance(FRadianceGrid Grid, FRadianceQuery Query, float U, inout FCe
 }
 #endif
 
+#ifdef HAS_DIFFUSE_TRANSMISSION
+// As LookUpReflected, of the light that has arrived on the other side of a hit.
+bool LookUpBack(FRadianceGrid Grid, FMaterialHit Hit, FBrdf Brdf, FRadianceQuery Query, FRadianceVoter Voter, vec3 LocalV, float U, out vec3 OutLight)
+{
+	FCellLight Light;
+	Query.Position += BackStep;
+	Query.GeometricNormal = -Query.GeometricNormal;
+	Query.Normal = -Query.Normal;
+	OutLight = vec3(0.0);
+	if (!LookUpRadiance(Grid, Query, Voter, U, Light)) { return false; }
+#ifdef SMOOTH_RADIANCE
+	SmoothRadiance(Grid, Query, U, Light);
+#endif
+	OutLight = Light.Irradiance * GetBackAlbedo(Brdf) * LayerTransmittance(Brdf, LocalV.z);
+	return true;
+}
+#endif
+
 // Returns whether the light that a hit reflects towards V is known: OutLight. P: where the next ray would start. Basis: about the shading
 // normal. LocalV: V in it. NearCells: see FRadianceQuery. Mirrors show what is there, and are followed. bLast: a path ends at them as well, and
 // is not black for it: they reflect the light of their cell as a glossy surface would.
@@ -121,11 +139,29 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 Loca
 	FRadianceVoter Voter = RadianceVoter;
 	RadianceVoter.Note = FAddress(0);
 	FCellLight Light;
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	if (HasBack(Brdf))
+	{
+		// There is one vote for both sides.
+		bool bBackVotes = (Voter.Hash & 0x10000u) != 0u;
+		FRadianceVoter Silent = FRadianceVoter(FAddress(0), 0u, 0u);
+		vec3 Back;
+		bool bBack = LookUpBack(Grid, Hit, Brdf, Query, bBackVotes ? Voter : Silent, LocalV, U, Back);
+		if (bBackVotes) { Voter = Silent; }
+		if (!bBack && !bLast)
+		{
+			// The other side asks for its cell all the same.
+			LookUpRadiance(Grid, Query, Voter, U, Light);
+			return false;
+		}
+		OutLight = Back;
+	}
+#endif
 	if (!LookUpRadiance(Grid, Query, Voter, U, Light)) { return false; }
 #ifdef SMOOTH_RADIANCE
 	SmoothRadiance(Grid, Query, U, Light);
 #endif
-	OutLight = ReflectCellLight(Light, Brdf, Hit.Roughness, LocalV, Light.From * Basis);
+	OutLight += ReflectCellLight(Light, MakeFrontLobes(Brdf), Hit.Roughness, LocalV, Light.From * Basis);
 	return true;
 }
 

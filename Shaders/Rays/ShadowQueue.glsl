@@ -75,6 +75,7 @@ void TraceSun(uint Index, uint Casters, uint MoreSample)
 	{
 		vec3 Direction = -Scene.SunDirection;
 		if (Push.SunOneMinusCos > 0.0) { Direction = SampleSunDirection(Scene, SobolOwen2(FirstSample + Sample, Sequence.Seed)); }
+		FaceDirection(Point, Direction);
 		if (!LeavesSurface(View, Point, Direction)) { continue; }
 #ifdef WITH_PENUMBRA
 		DrawLeastTransmittance(Index, bMore ? SamplesPerPixel + MoreSample : Sample, Push.SunOneMinusCos > 0.0);

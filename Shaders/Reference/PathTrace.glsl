@@ -64,6 +64,11 @@ FMaterialHit LoadRasterHit(ivec2 Pixel, FGBufferPoint Point)
 	Hit.EmissiveWeight = 0.0; // it counts whole, as nothing else samples it for the camera
 	Hit.Flags = 0u;
 	Hit.Channels = AllChannels;
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	vec4 Back = LoadBack(Push.BackAlbedo, Pixel);
+	Hit.BackAlbedo = Back.rgb;
+	Hit.DiffuseTransmission = Back.a;
+#endif
 #ifdef HAS_TRANSMISSION
 	Hit.Transmission = 0.0;
 	Hit.Absorption = vec3(0.0);
@@ -81,7 +86,11 @@ vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel,
 	if (Depth <= 0.0) { return vec3(SkyValue()); }
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	ChooseGatherMask(Push.ToonPixels, Pixel);
-	return TraceSignal(Scene, LoadRasterHit(Pixel, Point), RasterRayOrigin(Scene, View, Point), Point.V, Random);
+	vec3 P = RasterRayOrigin(Scene, View, Point);
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	BackStep = FindBackStep(Scene, View, Point);
+#endif
+	return TraceSignal(Scene, LoadRasterHit(Pixel, Point), P, Point.V, Random);
 #else
 #ifdef HAS_TRANSMISSION
 	vec3 Start = View.CameraPosition + CameraRayStart(View, vec2(Pixel) + 0.5), Direction = CameraRay(View, vec2(Pixel) + 0.5);
@@ -97,6 +106,9 @@ vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel,
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	FMaterialHit Hit = LoadRasterHit(Pixel, Point);
 	vec3 Origin = RasterRayOrigin(Scene, View, Point) + Point.V * Hit.Distance;
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	FirstBackStep = FindBackStep(Scene, View, Point);
+#endif
 	return FollowPath(Scene, Hit, Origin, -Point.V, CameraPdf, 1.0, 0u, Push.MaxBounces, true, Random);
 #endif
 }
@@ -108,6 +120,9 @@ vec3 TraceSample(FSceneConstants Scene, vec3 Origin, vec3 Direction, inout FRand
 #ifdef SIGNAL
 	if (Hit.Distance < 0.0) { return vec3(SkyValue()); }
 	vec3 P = OffsetRayOrigin(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	SetBackStep(Scene, P, Hit.GeometricNormal, Hit.Distance);
+#endif
 	return TraceSignal(Scene, Hit, P, -Direction, Random);
 #else
 	return FollowPath(Scene, Hit, Origin, Direction, CameraPdf, 1.0, 0u, Push.MaxBounces, true, Random);

@@ -24,8 +24,10 @@ struct FBruteForceConstants
 	FAddress Shared;  // FSharedPath[] of the first launch's threads, row by row, for shaders with SHARED_PATHS
 	uint ToonPixels;  // sampled index of what ToonSurface.comp writes, or NO_TEXTURE: see ChooseGatherMask
 	uint bHalf;       // pixels are those of the half frame
+	uint BackAlbedo;  // sampled index, for shaders with BACK_PIXELS, which also read BaseColor and Material; NO_TEXTURE: of diffuse light alone
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FBruteForceConstants, 112);
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 120);
 
 // Of the pass that fills pixels which traced nothing.
 struct FFillConstants

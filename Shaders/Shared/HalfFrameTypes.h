@@ -12,10 +12,10 @@ LANTERN_SHARED_BEGIN
 // Indices of the G-buffer's textures; NO_TEXTURE: there is none.
 struct FHalfTextures
 {
-	uint Depth, Normals, BaseColor, Material, Motion;
+	uint Depth, Normals, BaseColor, Material, BackAlbedo, Motion;
 	uint Numbers[HALF_FRAME_NUMBERS];
 };
-LANTERN_ASSERT_SIZE(FHalfTextures, 32);
+LANTERN_ASSERT_SIZE(FHalfTextures, 36);
 
 struct FHalfReduceConstants
 {
@@ -25,7 +25,7 @@ struct FHalfReduceConstants
 	uint NumbersOffset;  // of the view in From.Numbers, pixels: x | y << 16
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FHalfReduceConstants, 88);
+LANTERN_ASSERT_SIZE(FHalfReduceConstants, 96);
 
 struct FHalfUpsampleConstants
 {

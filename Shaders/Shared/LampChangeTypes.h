@@ -56,7 +56,7 @@ struct FFollowLampsConstants
 	uint Output;    // storage index: by how much the lobe has changed, over its albedo; and the standard deviation of that
 	uint bSpecular; // 1: of the specular lobe
 	uint Channels;  // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
-	uint Pad;
+	uint BackAlbedo; // sampled index, or NO_TEXTURE
 };
 LANTERN_ASSERT_SIZE(FFollowLampsConstants, 64);
 

@@ -22,8 +22,10 @@ struct FLightingConstants
 	uint Channels;      // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 	uint ToonNormals, ToonPixels; // HAS_TOON only: sampled indices of what ToonSurface.comp writes, or NO_TEXTURE
 	uint IndirectRough; // sampled index, or NO_TEXTURE: where no reflection is traced, sky and diffuse light stand in
+	uint BackAlbedo;    // sampled index, or NO_TEXTURE
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FLightingConstants, 88);
+LANTERN_ASSERT_SIZE(FLightingConstants, 96);
 
 LANTERN_SHARED_END
 

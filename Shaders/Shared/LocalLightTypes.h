@@ -111,7 +111,7 @@ LANTERN_ASSERT_SIZE(FEmitterClustersConstants, 40);
 
 #define EMITTER_GROUP_SIZE 64u // clusters that a work group does
 
-// FLocalRequestsConstants::PreviousGuide
+// FLocalRequestsConstants::Limits
 #define PREVIOUS_GUIDE_NONE 0u
 #define PREVIOUS_GUIDE_BEFORE 1u // it ends where this frame's begins
 #define PREVIOUS_GUIDE_BEHIND 2u
@@ -127,12 +127,14 @@ struct FLocalRequestsConstants
 	uint Capacity;
 	uint Depth;   // sampled index
 	uint Normals; // sampled index: shading and geometric normal, both octahedral
-	uint Limits;  // low 16 bits: most lights of a tile that all get rays, 1 to TILE_LIGHTS; high: GUIDED, candidates of each pixel, 1 to 64
+	// low 8 bits: most lights of a tile that all get rays, 1 to TILE_LIGHTS. GUIDED: next 8: where FTileGuide[] of the previous frame lies,
+	// PREVIOUS_GUIDE_…; high 16: candidates of each pixel, 1 to 64
+	uint Limits;
 	// GUIDED only:
 	uint BaseColor, Material; // sampled indices
 	FAddress Lit;             // FLitPixel[choices][pixels]; 0 with UNBIASED
 	FAddress Guide;           // FTileGuide[], row by row; this frame's
-	uint PreviousGuide;       // where FTileGuide[] of the previous frame lies: PREVIOUS_GUIDE_…
+	uint BackAlbedo;          // sampled index, or NO_TEXTURE
 	uint PreviousLights;      // also not GUIDED, LIGHT_MASK only: sampled index of FLightMaskConstants::OutLights; NO_TEXTURE: there is none
 	uint Channels;            // also not GUIDED, HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 	float GuideKept;          // share of what the guide knows that it keeps in this frame
@@ -153,8 +155,10 @@ struct FLocalShadeConstants
 	FAddress Guide;    // FTileGuide[]; GUIDED only
 	float ReflectedRoughness; // LOCAL_EMISSIVE: rougher surfaces have no reflections traced; negative: none have
 	uint Channels; // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
+	uint BackAlbedo; // sampled index, or NO_TEXTURE
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FLocalShadeConstants, 88);
+LANTERN_ASSERT_SIZE(FLocalShadeConstants, 96);
 
 // Constants of LocalLights/LampView.comp.
 struct FLampViewConstants

@@ -22,7 +22,7 @@ struct FReferenceConstants
 	uint Channels; // FROM_GBUFFER with HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 	uint Emissive; // sampled index, FROM_GBUFFER of the whole frame only
 	uint ToonPixels; // sampled index, FROM_GBUFFER only, or NO_TEXTURE: see ChooseGatherMask
-	uint Pad;
+	uint BackAlbedo; // sampled index, FROM_GBUFFER with HAS_DIFFUSE_TRANSMISSION only
 };
 LANTERN_ASSERT_SIZE(FReferenceConstants, 88);
 

@@ -111,9 +111,12 @@ LANTERN_ASSERT_SIZE(FSectionData, 32);
 #define TEXTURE_OCCLUSION 3
 #define TEXTURE_EMISSIVE 4
 #define TEXTURE_TRANSMISSION 5
-#define TEXTURE_SLOTS 6
+#define TEXTURE_DIFFUSE_TRANSMISSION 6       // a: factor
+#define TEXTURE_DIFFUSE_TRANSMISSION_COLOR 7 // rgb
+#define TEXTURE_SLOTS 8
 
-// glTF 2.0 metallic-roughness, with the extensions emissive_strength, ior, specular, transmission, volume, texture_transform.
+// glTF 2.0 metallic-roughness, with the extensions emissive_strength, ior, specular, transmission, volume,
+// diffuse_transmission, texture_transform.
 struct FMaterialData
 {
 	vec4 BaseColor; // linear; a: opacity
@@ -134,8 +137,10 @@ struct FMaterialData
 	vec3 LightEmissive;   // as Emissive, where it lights something: cameras and mirrors do not see it
 	float EmissiveWeight; // luminance of the mean of LightEmissive, rounded to fp16
 	vec3 Absorption;      // of MATERIAL_SOLID: coefficient, 1/m
+	vec3 DiffuseTransmissionColor;
+	float DiffuseTransmission; // share of the diffuse layer's light that leaves the surface on its other side
 };
-LANTERN_ASSERT_SIZE(FMaterialData, 264);
+LANTERN_ASSERT_SIZE(FMaterialData, 336);
 
 // The world is divided into cells. Positions are fp32, relative to the centre of a cell, and offsets between cells are exact in
 // fp32. Precision thus does not degrade far away from the world's origin.

@@ -26,7 +26,7 @@ struct FSharedPathConstants
 	uint BaseColor, Material; // sampled indices, where there is a second lobe
 	uint Output, SecondOutput; // storage indices
 	uint ToonPixels;           // sampled index of what ToonSurface.comp writes, or NO_TEXTURE
-	uint Pad;
+	uint BackAlbedo;           // sampled index, or NO_TEXTURE
 };
 LANTERN_ASSERT_SIZE(FSharedPathConstants, 56);
 

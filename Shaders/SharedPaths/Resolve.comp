@@ -38,6 +38,17 @@ shared uint SiteNormals[Sites]; // shading, octahedral
 shared uint SiteFaces[Sites];   // geometric, octahedral; NoNormal: the site shows no surface
 shared uint SitePixels[Sites];  // SphereBit | y << 16 | x
 shared FSharedPath SitePaths[Sites];
+#ifdef BACK_PIXELS
+shared float SiteBacks[Sites]; // chance that a path leaves the back
+
+// The surface of a pixel that shows light from behind.
+FBrdf LoadSides(ivec2 Pixel)
+{
+	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), texelFetch(Textures[Push.Material], Pixel, 0));
+	AddBackLobe(Push.BackAlbedo, Pixel, Brdf);
+	return Brdf;
+}
+#endif
 
 // Paths that leave a toon sphere do not see what others see: see ChooseGatherMask.
 const uint SphereBit = 0x80000000u;
@@ -62,6 +73,9 @@ void LoadSites(FViewConstants View)
 		SiteNormals[I] = PackOct(Point.BentN);
 		SiteFaces[I] = PackOct(Point.Ng);
 		SitePixels[I] = SphereOf(ivec2(Pixel)) | (Pixel.y << 16u) | Pixel.x;
+#ifdef BACK_PIXELS
+		SiteBacks[I] = Point.bBack && Push.BackAlbedo != NO_TEXTURE ? BackProbability(LoadSides(ivec2(Pixel))) : 0.0;
+#endif
 		SitePaths[I] = FSharedPathRef(Push.Shared).Data[Thread.y * Threads.x + Thread.x];
 	}
 }
@@ -215,15 +229,53 @@ void AddNear(FSites Found, inout FSum Diffuse, inout FSum Specular)
 	Specular.NearVariance = GetNearVariance(SpecularSpread, Diffuse.Weights, Count);
 }
 
-// Returns by how much more a path lights a pixel than the sites that could have drawn it.
-float GetGain(FSites Found, vec3 Normal, vec3 Direction)
+// Returns the density with which the sites could have drawn a path, over that of a cosine.
+float GetDensity(FSites Found, vec3 Direction)
+{
+	float Density = 0.0;
+	for (int I = 0; I < Around; ++I)
+	{
+		float Cosine = dot(Found.Normals[I], Direction), Chance = 1.0;
+#ifdef BACK_PIXELS
+		float Back = Found.Weights[I] > 0.0 ? SiteBacks[Found.Numbers[I]] : 0.0;
+		Chance = Cosine > 0.0 ? 1.0 - Back : Back;
+		Cosine = Back > 0.0 ? abs(Cosine) : Cosine;
+#endif
+		Density += Found.Weights[I] * Chance * max(Cosine, 0.0);
+	}
+	return max(Density, 1.0e-4);
+}
+
+// What the pixel takes of a path.
+struct FReceiver
+{
+	vec3 Normal;      // shading
+	vec3 Front, Back; // weights of the light on either side
+};
+
+FReceiver MakeReceiver(FGBufferPoint Point, ivec2 Pixel)
+{
+	FReceiver Receiver = FReceiver(Point.BentN, vec3(1.0), vec3(0.0));
+#ifdef BACK_PIXELS
+	if (Point.bBack && Push.BackAlbedo != NO_TEXTURE)
+	{
+		Receiver.Back = ShareOfSide(LoadSides(Pixel), true);
+		Receiver.Front -= Receiver.Back;
+	}
+#endif
+	return Receiver;
+}
+
+// Returns by how much more a path lights the pixel than the sites that could have drawn it. OutFront: the same, of light on the front alone.
+vec3 GetGain(FSites Found, FReceiver Receiver, vec3 Direction, out float OutFront)
 {
 #ifdef NO_REUSE_COSINE
-	return 1.0;
+	OutFront = 1.0;
+	return vec3(1.0);
 #else
-	float Cosines = 0.0;
-	for (int I = 0; I < Around; ++I) { Cosines += Found.Weights[I] * max(dot(Found.Normals[I], Direction), 0.0); }
-	return max(dot(Normal, Direction), 0.0) / max(Cosines, 1.0e-4);
+	float Cosine = dot(Receiver.Normal, Direction), Density = GetDensity(Found, Direction);
+	OutFront = max(Cosine, 0.0) / Density;
+	return Cosine > 0.0 ? Receiver.Front * OutFront : Receiver.Back * (-Cosine / Density);
 #endif
 }
 
@@ -235,6 +287,7 @@ void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffus
 	ivec2 InTile = ivec2(gl_LocalInvocationID.xy);
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	FSites Found = FindSites(View, InTile, Point);
+	FReceiver Receiver = MakeReceiver(Point, Pixel);
 #ifdef SECOND_LOBE
 	FBrdf Lobe;
 	float LobeShare;
@@ -249,12 +302,13 @@ void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffus
 		FSharedPath Path = SitePaths[Found.Numbers[I]];
 		vec3 Direction = Path.bSky != 0u ? Path.Hit : normalize(Path.Hit - Point.Relative);
 		vec3 Light = UnpackRgbe(Path.Radiance) * Weight;
-		float Share = Path.Share * GetGain(Found, Point.BentN, Direction);
-		AddPath(Light * min(Share, MostShare), Weight, Diffuse);
+		float Front;
+		vec3 Gain = GetGain(Found, Receiver, Direction, Front);
+		AddPath(Light * min(Path.Share * Gain, vec3(MostShare)), Weight, Diffuse);
 #ifdef SECOND_LOBE
 		vec3 L = Direction * Basis;
 		vec3 Reflected = L.z > 0.0 ? EvaluateBrdfCos(Lobe, V, L) * (Pi / max(L.z, 1.0e-4)) / Albedo : vec3(0.0);
-		AddPath(Light * min(Share * Reflected, vec3(MostSpecularShare)), Weight, Specular);
+		AddPath(Light * min(Path.Share * Front * Reflected, vec3(MostSpecularShare)), Weight, Specular);
 #endif
 	}
 	AddNear(Found, Diffuse, Specular);

@@ -68,7 +68,9 @@ float LoadHostVisibility(FViewConstants View, uvec2 Pixel)
 {
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	if (Push.HostShadow == 0ul || Depth <= 0.0 || !IsHostShadowKept(Push.HostShadow)) { return 1.0; }
-	return FilterHostShadow(Push.HostShadow, View, LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth));
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
+	FaceDirection(Point, -FSceneRef(Push.Pass.Scene).Data.SunDirection);
+	return FilterHostShadow(Push.HostShadow, View, Point);
 }
 #endif
 

@@ -41,6 +41,7 @@ uint ClassifySun(FViewConstants View, uvec2 Pixel)
 	if (Depth <= 0.0) { return TILE_SKY; }
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
+	FaceDirection(Point, -Scene.SunDirection);
 	// No direction to the disk is farther from that to its centre than this chord, and rounding.
 	float Spread = Push.SunOneMinusCos > 0.0 ? sqrt(2.0 * Push.SunOneMinusCos) + 1.0e-6 : 0.0;
 	uint Class = LeavesSurface(View, Point, -Scene.SunDirection, Spread) ? TILE_SUN_TRACED : TILE_SUN_BEHIND;

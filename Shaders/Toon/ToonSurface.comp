@@ -54,7 +54,7 @@ void main()
 		FToonData Style = LoadToon(Scene, Toon);
 		Sphere = Style.SphereWeight;
 		StyleNormals(Scene, View, Style, Point);
-		vec2 Geometric = OctEncode(Point.Ng);
+		vec2 Geometric = MarkBack(OctEncode(Point.Ng), IsBack(Normals.zw));
 		Normals = vec4(OctEncode(Point.BentN), View.bDerivedNormals != 0u ? MarkSure(Geometric, Point.bSure) : Geometric);
 	}
 	imageStore(Images[Push.OutNormals], Pixel, Normals);

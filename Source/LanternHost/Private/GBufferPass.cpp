@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,11 +21,24 @@ namespace
 TRTConsoleVariable<bool> CVarMotion("r.RT.GBuffer.Motion", true,
     "Makes the sample engine's raster write motion vectors. If off, histories treat moving objects as static, "
     "and each pixel costs 16 bytes less.");
-constexpr std::array<ERTFormat, 5> ColorFormats = {
-    ERTFormat::RGBA16_SNORM, ERTFormat::RGBA8_SRGB, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA32_FLOAT, ERTFormat::RGBA32_FLOAT};
-constexpr std::array<const char*, 5> ColorNames = {
-    "GBufferNormals", "GBufferBaseColor", "GBufferMaterial", "GBufferEmissive", "GBufferMotion"};
-constexpr uint32_t CountColors(bool bMotion) { return bMotion ? 5 : 4; }
+struct FTarget
+{
+	FGraphTexture FGBuffer::*Texture;
+	ERTFormat Format;
+	const char* Name;
+};
+constexpr size_t MostTargets = 6;
+
+/// In the order of the fragment shader's outputs.
+std::vector<FTarget> ListTargets(bool bMotion, bool bBack)
+{
+	std::vector<FTarget> Targets = {{&FGBuffer::Normals, ERTFormat::RGBA16_SNORM, "GBufferNormals"},
+	    {&FGBuffer::BaseColor, ERTFormat::RGBA8_SRGB, "GBufferBaseColor"}, {&FGBuffer::Material, ERTFormat::RGBA8_UNORM, "GBufferMaterial"},
+	    {&FGBuffer::Emissive, ERTFormat::RGBA32_FLOAT, "GBufferEmissive"}};
+	if (bMotion) { Targets.push_back({&FGBuffer::Motion, ERTFormat::RGBA32_FLOAT, "GBufferMotion"}); }
+	if (bBack) { Targets.push_back({&FGBuffer::BackAlbedo, ERTFormat::RGBA8_SRGB, "GBufferBackAlbedo"}); }
+	return Targets;
+}
 
 } // namespace
 
@@ -32,7 +46,8 @@ FRasterSource FGBufferPass::MakeSource(const FPipelineKey& Key) const
 {
 	const FMaterialPrograms& Programs = Renderer.GetPrograms();
 	FRasterSource Source;
-	Source.Key = fmt::format("GBuffer {}{}{}{}", Key.Program, Key.bMasked ? " masked" : "", Key.bMotion ? " motion" : "",
+	Source.Key = fmt::format("GBuffer {}{}{}{}{}", Key.Program, Key.bMasked ? " masked" : "", Key.Targets.bMotion ? " motion" : "",
+	    Key.Targets.bBack ? " back" : "",
 	    Key.Cull == ERTCull::Back    ? ""
 	    : Key.Cull == ERTCull::Front ? " front"
 	                                 : " both");
@@ -42,13 +57,14 @@ FRasterSource FGBufferPass::MakeSource(const FPipelineKey& Key) const
 	Source.Vertex = {"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}};
 	Source.Fragment = {"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}};
 	if (Key.bMasked) { Source.Fragment.Defines.emplace_back("MASKED", "1"); }
-	if (Key.bMotion)
+	if (Key.Targets.bBack) { Source.Fragment.Defines.emplace_back("BACK", "1"); }
+	if (Key.Targets.bMotion)
 	{
 		Source.Vertex.Defines.emplace_back("MOTION", "1");
 		Source.Fragment.Defines.emplace_back("MOTION", "1");
 	}
 	Source.Fragment = Programs.MakeSource(std::move(Source.Fragment), Key.Program);
-	Source.ColorFormats.assign(ColorFormats.begin(), ColorFormats.begin() + CountColors(Key.bMotion));
+	for (const FTarget& Target : ListTargets(Key.Targets.bMotion, Key.Targets.bBack)) { Source.ColorFormats.push_back(Target.Format); }
 	Source.DepthFormat = ERTFormat::D32_FLOAT;
 	Source.Cull = Key.Cull;
 	return Source;
@@ -62,12 +78,12 @@ const FRasterSource& FGBufferPass::GetSource(const FPipelineKey& Key)
 }
 
 /// Of all that the scene may draw, in view or not: what comes into view is then there.
-std::vector<FGBufferPass::FPipelineKey> FGBufferPass::ListKeys(const FHostScene& Scene, const FSceneFacts& Facts, bool bWithMotion)
+std::vector<FGBufferPass::FPipelineKey> FGBufferPass::ListKeys(const FHostScene& Scene, const FSceneFacts& Facts, FTargets Targets)
 {
 	std::vector<FPipelineKey> Keys;
 	for (const FHostScene::FDrawKind& Kind : Scene.GetDrawKinds())
 	{
-		const FPipelineKey Key{Kind.Program, IsTested(Kind, Facts), Kind.bDoubleSided ? ERTCull::None : ERTCull::Back, bWithMotion};
+		const FPipelineKey Key{Kind.Program, IsTested(Kind, Facts), Kind.bDoubleSided ? ERTCull::None : ERTCull::Back, Targets};
 		Keys.push_back(Key);
 		if (Kind.bDoubleSided || !Scene.GetDrawBlocks().HasMirrored()) { continue; }
 		Keys.push_back(Key);
@@ -90,7 +106,7 @@ void FGBufferPass::Want(const std::vector<FPipelineKey>& Keys)
 std::vector<FGBufferPass::FPipelineKey> FGBufferPass::ListKeys(FHostScene& Scene, const FFrameFeatures& Features) const
 {
 	const bool bFollowed = Renderer.FollowsMotion(Scene.GetScene(), Features); // brings the facts up to date
-	return ListKeys(Scene, Scene.GetScene().GetFacts(), MayMove(bFollowed));
+	return ListKeys(Scene, Scene.GetScene().GetFacts(), {MayMove(bFollowed), Renderer.HasBackPixels(Scene.GetScene(), Features)});
 }
 
 namespace
@@ -140,9 +156,9 @@ IRTPipeline* FGBufferPass::Ask(const FFrameContext& Context, const FPipelineKey&
 }
 
 /// Returns whether there is something to draw everything with.
-bool FGBufferPass::FindPipelines(const FFrameContext& Context, const FHostScene& Scene, bool bWithMotion)
+bool FGBufferPass::FindPipelines(const FFrameContext& Context, const FHostScene& Scene, FTargets Targets)
 {
-	const std::vector<FPipelineKey> Keys = ListKeys(Scene, Context.Facts, bWithMotion);
+	const std::vector<FPipelineKey> Keys = ListKeys(Scene, Context.Facts, Targets);
 	if (Context.bWaitForPipelines) { Want(Keys); } // side by side
 	const bool bStandIns = GetPipelineFallback() != ERTFallback::Skip;
 	bool bComplete = true;
@@ -152,7 +168,7 @@ bool FGBufferPass::FindPipelines(const FFrameContext& Context, const FHostScene&
 		IRTPipeline* Pipeline = Ask(Context, Key);
 		if (!Pipeline && bStandIns && Key.Program != StandardProgram)
 		{
-			Pipeline = Ask(Context, {StandardProgram, Key.bMasked, Key.Cull, Key.bMotion});
+			Pipeline = Ask(Context, {StandardProgram, Key.bMasked, Key.Cull, Key.Targets});
 		}
 		Pipelines[Key] = Pipeline;
 		bComplete &= Pipeline != nullptr;
@@ -160,22 +176,22 @@ bool FGBufferPass::FindPipelines(const FFrameContext& Context, const FHostScene&
 	return bComplete;
 }
 
-/// Finds the frame's pipelines. Returns whether they write motion vectors.
-bool FGBufferPass::ChooseMotion(const FFrameContext& Context, const FHostScene& Scene)
+/// Finds the frame's pipelines. Returns what they write.
+FGBufferPass::FTargets FGBufferPass::ChooseTargets(const FFrameContext& Context, const FHostScene& Scene)
 {
-	const bool bWanted = MayMove(Context.bMotion);
-	if (FindPipelines(Context, Scene, bWanted))
+	const FTargets Wanted{MayMove(Context.bMotion), Context.Facts.bBackPixels};
+	if (FindPipelines(Context, Scene, Wanted))
 	{
-		CompleteMotion = bWanted;
-		return bWanted;
+		Complete = Wanted;
+		return Wanted;
 	}
-	if (CompleteMotion != std::optional(!bWanted)) { return bWanted; }
-	if (FindPipelines(Context, Scene, !bWanted)) { return !bWanted; }
-	FindPipelines(Context, Scene, bWanted);
-	return bWanted;
+	if (!Complete || *Complete == Wanted) { return Wanted; }
+	if (FindPipelines(Context, Scene, *Complete)) { return *Complete; }
+	FindPipelines(Context, Scene, Wanted);
+	return Wanted;
 }
 
-void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion, bool bLayers)
+void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, FTargets Targets, bool bLayers)
 {
 	if (FRTStatus S = Draws.Make(Scene, Renderer.GetUploads(), Frame.View, MinPixels); !S) { return Frame.Fail(S); }
 	IRTPipeline* Bound = nullptr;
@@ -185,7 +201,7 @@ void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHost
 		const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Run.Batch];
 		if (bLayers && Batch.bTransmissive && !Batch.bBlended) { continue; }
 		const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : Run.bMirrored ? ERTCull::Front : ERTCull::Back;
-		IRTPipeline* const Pipeline = Pipelines.at({Batch.Program, IsTested(Batch, Frame.Facts), Cull, bWithMotion});
+		IRTPipeline* const Pipeline = Pipelines.at({Batch.Program, IsTested(Batch, Frame.Facts), Cull, Targets});
 		if (!Pipeline) { continue; }
 		if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
 		if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }
@@ -203,20 +219,18 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 	};
 	FGBuffer Out;
 	Out.Depth = Create(ERTFormat::D32_FLOAT, "GBufferDepth");
-	const bool bWithMotion = ChooseMotion(Context, Scene);
-	const uint32_t ColorCount = CountColors(bWithMotion);
-	std::array<FGraphTexture, ColorFormats.size()> Targets;
-	for (uint32_t I = 0; I < ColorCount; ++I) { Targets[I] = Create(ColorFormats[I], ColorNames[I]); }
-	Out.Normals = Targets[0];
-	Out.BaseColor = Targets[1];
-	Out.Material = Targets[2];
-	Out.Emissive = Targets[3];
-	Out.Motion = Targets[4];
+	const FTargets Written = ChooseTargets(Context, Scene);
+	std::vector<FGraphTexture> Targets;
+	for (const FTarget& Target : ListTargets(Written.bMotion, Written.bBack))
+	{
+		Targets.push_back(Out.*Target.Texture = Create(Target.Format, Target.Name));
+	}
+	assert(Targets.size() <= MostTargets);
 	Out.bNamesObjects = true;
 	FFrameContext* const Frame = &Context;
 	const bool bLayers = IsTransmissionShown(Context);
 	Graph.AddPass("GBuffer", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (uint32_t I = 0; I < ColorCount; ++I) { Builder.Write(Targets[I], ERTAccess::RenderTarget); }
+		for (const FGraphTexture Target : Targets) { Builder.Write(Target, ERTAccess::RenderTarget); }
 		Builder.Write(Out.Depth, ERTAccess::DepthWrite);
 		Builder.RecordOnTask();
 		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records, Context.Tokens.Sky})
@@ -224,16 +238,16 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 			Builder.Without(Unused);
 		}
 		return [=, this, &Scene](FPassContext& Pass) {
-			std::array<FRTColorTarget, ColorFormats.size()> Colors;
-			for (uint32_t I = 0; I < ColorCount; ++I) { Colors[I].Texture = Pass.GetTexture(Targets[I]); }
+			std::array<FRTColorTarget, MostTargets> Colors;
+			for (size_t I = 0; I < Targets.size(); ++I) { Colors[I].Texture = Pass.GetTexture(Targets[I]); }
 			FRTRasterPassDesc Desc;
 			Desc.Colors = Colors.data();
-			Desc.ColorCount = ColorCount;
+			Desc.ColorCount = static_cast<uint32_t>(Targets.size());
 			Desc.Depth = Pass.GetTexture(Out.Depth);
 			Desc.Width = Frame->Width;
 			Desc.Height = Frame->Height;
 			Pass.Commands().BeginRasterPass(Desc);
-			RecordDraws(*Frame, Pass.Commands(), Scene, bWithMotion, bLayers);
+			RecordDraws(*Frame, Pass.Commands(), Scene, Written, bLayers);
 			Pass.Commands().EndRasterPass();
 		};
 	});

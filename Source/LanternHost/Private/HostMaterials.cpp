@@ -110,6 +110,8 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 		Data.Specular = Source.Specular;
 		Data.Transmission = Source.Transmission;
 		Data.Absorption = Source.Absorption;
+		Data.DiffuseTransmission = Source.DiffuseTransmission;
+		Data.DiffuseTransmissionColor = Source.DiffuseTransmissionColor;
 		Data.Flags = (IsMasked(Source) ? MATERIAL_MASKED : 0u) | (Source.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |
 		             (Source.bSolid ? MATERIAL_SOLID : 0u) | (IsBlended(Source) ? MATERIAL_BLENDED : 0u);
 		glm::vec3 MeanEmission = Data.LightEmissive;

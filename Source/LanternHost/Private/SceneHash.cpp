@@ -110,6 +110,11 @@ public:
 		AddAll(V.Metallic, V.Roughness, V.NormalScale, V.OcclusionStrength, V.AlphaCutoff, V.Ior, V.Specular, V.Transmission, V.AlphaMode,
 		    V.bDoubleSided, V.bSolid);
 		AddFloats(V.Absorption);
+		if (V.DiffuseTransmission > 0.0f)
+		{
+			AddAll(V.DiffuseTransmission);
+			AddFloats(V.DiffuseTransmissionColor);
+		}
 		for (const FHostTextureSlot& Slot : V.Slots) { Add(Slot); }
 		Hash.AddText(V.Program);
 	}

@@ -230,7 +230,7 @@ FRTStatus CheckTransform(const double Transform[12])
 std::array<const FRTModuleMap*, MaterialMapCount> GetMaps(const FRTModuleMaterial& Material)
 {
 	return {&Material.BaseColorMap, &Material.MetallicRoughnessMap, &Material.NormalMap, &Material.OcclusionMap, &Material.EmissiveMap,
-	    &Material.TransmissionMap};
+	    &Material.TransmissionMap, &Material.DiffuseTransmissionMap, &Material.DiffuseTransmissionColorMap};
 }
 
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
@@ -243,7 +243,9 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 		return Refuse("FRTModuleMaterial::BaseColor, Emissive and LightEmissive must be finite and not negative");
 	}
 	const std::pair<float, const char*> Shares[] = {{Material.Metallic, "Metallic"}, {Material.Roughness, "Roughness"},
-	    {Material.OcclusionStrength, "OcclusionStrength"}, {Material.Specular, "Specular"}, {Material.Transmission, "Transmission"}};
+	    {Material.OcclusionStrength, "OcclusionStrength"}, {Material.Specular, "Specular"}, {Material.Transmission, "Transmission"},
+	    {Material.DiffuseTransmission, "DiffuseTransmission"}, {Material.DiffuseTransmissionColor[0], "DiffuseTransmissionColor[0]"},
+	    {Material.DiffuseTransmissionColor[1], "DiffuseTransmissionColor[1]"}, {Material.DiffuseTransmissionColor[2], "DiffuseTransmissionColor[2]"}};
 	for (const auto& [Value, Name] : Shares)
 	{
 		if (!(Value >= 0.0f && Value <= 1.0f))
@@ -265,7 +267,8 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 		return Refuse("FRTModuleMaterial::AttenuationColor must be greater than 0 and at most 1, and AttenuationDistance greater than 0");
 	}
 	FRTStatus Status;
-	const char* const Names[] = {"BaseColorMap", "MetallicRoughnessMap", "NormalMap", "OcclusionMap", "EmissiveMap", "TransmissionMap"};
+	const char* const Names[] = {"BaseColorMap", "MetallicRoughnessMap", "NormalMap", "OcclusionMap", "EmissiveMap", "TransmissionMap",
+	    "DiffuseTransmissionMap", "DiffuseTransmissionColorMap"};
 	const std::array<const FRTModuleMap*, MaterialMapCount> Maps = GetMaps(Material);
 	for (size_t Map = 0; Map < Maps.size() && Status; ++Map) { Status = CheckMap(*Maps[Map], Names[Map]); }
 	return Status;

@@ -22,7 +22,7 @@ FRTStatus CheckToon(const FRTModuleToon* Toon);
 FRTStatus CheckTransform(const double Transform[12]);
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material);
 
-inline constexpr size_t MaterialMapCount = 6;
+inline constexpr size_t MaterialMapCount = 8;
 /// In the order of TEXTURE_… in SceneTypes.h.
 std::array<const FRTModuleMap*, MaterialMapCount> GetMaps(const FRTModuleMaterial& Material);
 

@@ -307,6 +307,8 @@ FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 	Data.Specular = Material.Specular;
 	Data.Transmission = Material.Transmission;
 	Data.Absorption = glm::min(-glm::log(ReadVector(Material.AttenuationColor, 0)) / Material.AttenuationDistance, glm::vec3(1.0e6f));
+	Data.DiffuseTransmission = Material.DiffuseTransmission;
+	Data.DiffuseTransmissionColor = ReadVector(Material.DiffuseTransmissionColor, 0);
 	const bool bBlended = Material.bBlended && Material.Transmission <= 0.0f;
 	Data.Flags = (Material.bMasked || bBlended ? MATERIAL_MASKED : 0u) | (Material.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |
 	             (Material.bSolid ? MATERIAL_SOLID : 0u) | (bBlended ? MATERIAL_BLENDED : 0u);

@@ -18,6 +18,8 @@ TRTConsoleVariable<bool> CVarSheet("r.RT.Debug.Transmission.Sheet", true,
     "Planted fault. Off: a thin sheet reflects as one interface, and not as two with all that goes to and fro between them.");
 TRTConsoleVariable<bool> CVarLightEmission("r.RT.Debug.Lights.LightEmission", true,
     "Planted fault. Off: materials light with what cameras see of them, whatever their second emission is.");
+TRTConsoleVariable<bool> CVarBackLobe(
+    "r.RT.Debug.DiffuseTransmission", true, "Planted fault. Off: light that leaves surfaces on their other side is lost.");
 } // namespace
 
 namespace
@@ -95,6 +97,14 @@ void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
 	if (Facts.bLightEmission && CVarLightEmission.GetOnRenderThread()) { InOut.emplace_back("HAS_LIGHT_EMISSION", "1"); }
 }
 
+void AddDiffuseTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
+{
+	if (!Facts.bDiffuseTransmission) { return; }
+	InOut.emplace_back("HAS_DIFFUSE_TRANSMISSION", "1");
+	if (Facts.bBackPixels) { InOut.emplace_back("BACK_PIXELS", "1"); }
+	if (!CVarBackLobe.GetOnRenderThread()) { InOut.emplace_back("NO_BACK_LOBE", "1"); }
+}
+
 void AddTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
 {
 	if (!Facts.bTransmissive) { return; }
@@ -123,6 +133,7 @@ FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 	Add(Facts.bLightChannels && CVarLightChannels.GetOnRenderThread(), "HAS_LIGHT_CHANNELS");
 	Add(Facts.bMasked, "HAS_MASKED");
 	AddLightEmissionDefine(Facts, Defines);
+	AddDiffuseTransmissionDefine(Facts, Defines);
 	return Defines;
 }
 

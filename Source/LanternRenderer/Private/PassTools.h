@@ -77,6 +77,8 @@ bool IsRayTracingEnabled();
 /// Adds HAS_LIGHT_EMISSION if some material lights otherwise than it looks. Shaders that read emission of hits need it.
 void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
 
+/// Adds HAS_DIFFUSE_TRANSMISSION if some material scatters light through. Shaders that read hits, or what pixels reflect, need it.
+void AddDiffuseTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
 /// Adds HAS_TRANSMISSION if light shines through some material. Shaders that read hits, or what any-hit shaders decide, need it.
 void AddTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
 

@@ -24,7 +24,7 @@ namespace Lantern
 namespace
 {
 constexpr uint32_t ShadowPayloadBytes = 4;
-constexpr uint32_t MaterialPayloadBytes = 36, TransmissionBytes = 8;
+constexpr uint32_t MaterialPayloadBytes = 36, TransmissionBytes = 8, DiffuseTransmissionBytes = 8;
 
 FShaderSource Shader(const char* Path) { return {Path, ERTShaderStage::RayGen, {}, {}}; }
 
@@ -61,7 +61,12 @@ FRayType MakeMaterialRay(const FSceneFacts& Facts, bool bStandard)
 	AddTransmissionDefine(Facts, Type.Miss.Defines);
 	AddTransmissionDefine(Facts, Type.ClosestHit->Defines);
 	AddTransmissionDefine(Facts, Type.MaskedAnyHit.Defines);
+	for (FShaderDefines* const Defines : {&Type.Miss.Defines, &Type.ClosestHit->Defines, &Type.MaskedAnyHit.Defines})
+	{
+		AddDiffuseTransmissionDefine(Facts, *Defines);
+	}
 	Type.PayloadBytes = MaterialPayloadBytes + (Facts.bTransmissive ? TransmissionBytes : 0);
+	Type.PayloadBytes += Facts.bDiffuseTransmission ? DiffuseTransmissionBytes : 0;
 	return Type;
 }
 

@@ -47,6 +47,11 @@ FRTPSODesc FRenderer::GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Feat
 
 bool FRenderer::FollowsMotion(FRTScene& Scene, const FFrameFeatures& Features) { return ChoosePrograms(Scene, Features).bMotion; }
 
+bool FRenderer::HasBackPixels(FRTScene& Scene, const FFrameFeatures& Features)
+{
+	return AddFrameFacts(Scene.RefreshFacts(), Features, Features.Signals).bBackPixels;
+}
+
 FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
 {
 	FRayPrograms Wanted = ChoosePrograms(Scene, Features);

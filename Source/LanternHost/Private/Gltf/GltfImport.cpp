@@ -15,8 +15,9 @@ namespace Lantern::Gltf
 namespace
 {
 
-constexpr std::array<std::string_view, 10> SupportedExtensions = {
+constexpr std::array<std::string_view, 11> SupportedExtensions = {
     "KHR_lights_punctual",
+    "KHR_materials_diffuse_transmission",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_specular",

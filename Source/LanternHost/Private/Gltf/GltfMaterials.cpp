@@ -153,6 +153,15 @@ void ReadTransmission(FDocument& Document, FTextureTable& Table, const FJson& Js
 	Material.Absorption = glm::min(-glm::log(Color) / Distance, glm::vec3(Most));
 }
 
+void ReadDiffuseTransmission(FDocument& Document, FTextureTable& Table, const FJson& Json, FHostMaterial& Material)
+{
+	const FJson Diffuse = Json.Extension("KHR_materials_diffuse_transmission");
+	Material.DiffuseTransmission = Clamp01(Diffuse, "diffuseTransmissionFactor", 0.0f);
+	Material.DiffuseTransmissionColor = glm::clamp(Diffuse.GetVec3("diffuseTransmissionColorFactor", glm::vec3(1)), 0.0f, 1.0f);
+	ReadSlot(Document, Table, Diffuse, "diffuseTransmissionTexture", false, Material.Slots[TEXTURE_DIFFUSE_TRANSMISSION]);
+	ReadSlot(Document, Table, Diffuse, "diffuseTransmissionColorTexture", true, Material.Slots[TEXTURE_DIFFUSE_TRANSMISSION_COLOR]);
+}
+
 /// Reads extras.lantern of a material: what it lights with, if that is not what it looks like.
 void ReadLightEmission(const FJson& Json, FHostMaterial& Material)
 {
@@ -212,6 +221,7 @@ FHostMaterial ReadMaterial(FDocument& Document, FTextureTable& Table, const FJso
 	ReadAlpha(Json, Material);
 	ReadExtensions(Document, Json, Material);
 	ReadTransmission(Document, Table, Json, Material);
+	ReadDiffuseTransmission(Document, Table, Json, Material);
 	ReadUnlit(Document, Json, Material);
 	ReadLightEmission(Json, Material);
 	return Material;

@@ -13,7 +13,7 @@ namespace Lantern
 
 /// Its pipelines are the renderer's (FPlainPipelines), compiled beside the frames. Frames that do not wait for pipelines draw what is
 /// there. r.RT.Pipeline.Fallback says what a material program that is not ready shows; an edited one shows as it was before.
-/// Draws without any pipeline are left out. Pipelines with motion vectors, or without, serve while a toggle's own are compiled.
+/// Draws without any pipeline are left out. Pipelines of other targets serve while a toggle's own are compiled.
 /// A program that does not compile is drawn as before its edit, or as the standard program.
 class FGBufferPass
 {
@@ -33,29 +33,35 @@ public:
 	void SetMotion(bool bEnabled) { bMotion = bEnabled; }
 
 private:
+	/// What is written beside what always is.
+	struct FTargets
+	{
+		bool bMotion = false, bBack = false;
+		friend auto operator<=>(const FTargets&, const FTargets&) = default;
+	};
 	struct FPipelineKey
 	{
 		uint32_t Program = StandardProgram;
 		bool bMasked = false;
 		ERTCull Cull = ERTCull::Back;
-		bool bMotion = false;
+		FTargets Targets;
 		friend auto operator<=>(const FPipelineKey&, const FPipelineKey&) = default;
 	};
 	bool MayMove(bool bFollowed) const;
-	static std::vector<FPipelineKey> ListKeys(const FHostScene& Scene, const FSceneFacts& Facts, bool bWithMotion);
+	static std::vector<FPipelineKey> ListKeys(const FHostScene& Scene, const FSceneFacts& Facts, FTargets Targets);
 	std::vector<FPipelineKey> ListKeys(FHostScene& Scene, const FFrameFeatures& Features) const;
 	FRasterSource MakeSource(const FPipelineKey& Key) const;
 	const FRasterSource& GetSource(const FPipelineKey& Key);
 	void Want(const std::vector<FPipelineKey>& Keys);
 	IRTPipeline* Ask(const FFrameContext& Context, const FPipelineKey& Key);
-	bool FindPipelines(const FFrameContext& Context, const FHostScene& Scene, bool bWithMotion);
-	bool ChooseMotion(const FFrameContext& Context, const FHostScene& Scene);
-	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion, bool bLayers);
+	bool FindPipelines(const FFrameContext& Context, const FHostScene& Scene, FTargets Targets);
+	FTargets ChooseTargets(const FFrameContext& Context, const FHostScene& Scene);
+	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, FTargets Targets, bool bLayers);
 
 	FRenderer& Renderer;
 	std::map<FPipelineKey, FRasterSource> Sources;  // of the newest revisions
 	std::map<FPipelineKey, IRTPipeline*> Pipelines; // of the frame that is being made; null: to be left out
-	std::optional<bool> CompleteMotion;             // with motion or without: what last had all pipelines
+	std::optional<FTargets> Complete;               // what last had all pipelines
 	float MinPixels = 0.0f;
 	bool bMotion = true;
 	FDrawList Draws;

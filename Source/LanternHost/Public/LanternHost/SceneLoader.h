@@ -36,7 +36,7 @@ struct FLoadResult
 /// built-in names. The result keeps every promise of SceneDescription.h, whatever the file holds. Warnings about what was
 /// ignored or approximated are in FSceneDescription::Warnings.
 ///
-/// glTF 2.0 with KHR_lights_punctual, KHR_materials_{emissive_strength, ior, specular, transmission, unlit},
+/// glTF 2.0 with KHR_lights_punctual, KHR_materials_{diffuse_transmission, emissive_strength, ior, specular, transmission, unlit},
 /// KHR_texture_transform, KHR_mesh_quantization and EXT_mesh_gpu_instancing. Not read: morph targets, sparse or
 /// compressed (Draco, meshopt, Basis) extensions, points and lines, orthographic cameras.
 ///

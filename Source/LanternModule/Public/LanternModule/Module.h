@@ -91,7 +91,8 @@ struct FRTModuleMap
 	float UVOffset[2] = {0, 0};
 };
 
-/// A material of glTF 2.0 metallic-roughness, with its maps and the extensions ior, specular, transmission and volume. All values
+/// A material of glTF 2.0 metallic-roughness, with its maps and the extensions ior, specular, transmission, volume and
+/// diffuse_transmission. All values
 /// must be finite, and colours not negative. Maps multiply the values beside them.
 struct FRTModuleMaterial
 {
@@ -129,6 +130,12 @@ struct FRTModuleMaterial
 	/// the section of a mesh must say that it may be masked. With Transmission > 0, that counts alone. Light sampling finds no emission of
 	/// such surfaces, but paths of indirect light do. If r.RT.Transmission is off, they are cut at AlphaCutoff.
 	bool bBlended = false;
+	/// Of the light that the diffuse layer takes in, the share that leaves the surface on its other side, 0–1: leaves, paper, cloth
+	/// (KHR_materials_diffuse_transmission). Pixels show it if FRTModuleFrame::BackAlbedo says so.
+	float DiffuseTransmission = 0.0f;
+	float DiffuseTransmissionColor[3] = {1, 1, 1}; ///< factor of what leaves there, linear, 0–1
+	FRTModuleMap DiffuseTransmissionMap;           ///< a
+	FRTModuleMap DiffuseTransmissionColorMap;      ///< sRGB format
 };
 
 /// What an engine knows of an object's future.

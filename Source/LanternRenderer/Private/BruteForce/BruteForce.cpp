@@ -123,10 +123,16 @@ void TraceFirst(FPassContext& Pass, const FFrameContext& Frame, const FPaths& Pa
 	TraceFrameRays(Pass, Frame, Paths.First.RayGen, Constants, Paths.Width, Paths.Height);
 }
 
-bool NeedsSurface(const FBruteForcePass& Settings, const FPaths& Paths)
+/// Whether pixels gather light from behind as well.
+bool GathersBack(const FBruteForcePass& Settings, const FGBuffer& GBuffer)
+{
+	return Settings.Signal == ESignal::DiffuseGI && GBuffer.BackAlbedo.IsValid();
+}
+
+bool NeedsSurface(const FBruteForcePass& Settings, const FGBuffer& GBuffer, const FPaths& Paths)
 {
 	if (Paths.Probes.IsValid()) { return false; }
-	return GetSignalInfo(Settings.Signal).bNeedsSurface || Paths.SecondOutput.IsValid();
+	return GetSignalInfo(Settings.Signal).bNeedsSurface || Paths.SecondOutput.IsValid() || GathersBack(Settings, GBuffer);
 }
 
 /// Declares what the launches of a pass use, other than cells. bDeferred: the second launch.
@@ -135,9 +141,10 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 	Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 	Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
 	if (Paths.Toon.IsValid()) { Builder.Read(Paths.Toon, ERTAccess::ShaderRead); }
-	if (NeedsSurface(Settings, Paths))
+	if (NeedsSurface(Settings, GBuffer, Paths))
 	{
-		for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material})
+		const FGraphTexture Back = GathersBack(Settings, GBuffer) ? GBuffer.BackAlbedo : FGraphTexture();
+		for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material, Back})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -158,7 +165,7 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteForcePass& Settings, const FGBuffer& GBuffer,
     const FPaths& Paths, bool bDeferred)
 {
-	const bool bNeedsSurface = NeedsSurface(Settings, Paths);
+	const bool bNeedsSurface = NeedsSurface(Settings, GBuffer, Paths);
 	const uint32_t Bounces = static_cast<uint32_t>(Settings.Bounces.GetOnRenderThread());
 	FBruteForceConstants C{};
 	C.Pass = Frame.Pass;
@@ -166,6 +173,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 	C.BaseColor = bNeedsSurface ? GetSampledIndex(Pass, GBuffer.BaseColor) : NO_TEXTURE;
 	C.Material = bNeedsSurface ? GetSampledIndex(Pass, GBuffer.Material) : NO_TEXTURE;
+	C.BackAlbedo = bNeedsSurface && GathersBack(Settings, GBuffer) ? GetSampledIndex(Pass, GBuffer.BackAlbedo) : NO_TEXTURE;
 	C.Output = C.SecondOutput = NO_TEXTURE;
 	if (Paths.LightsPixels())
 	{
@@ -241,7 +249,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	{
 		const auto Rate = static_cast<EPixelRate>(Settings.Rate->GetOnRenderThread());
 		AddRateDefine(Rate, Rays.Defines);
-		if (Settings.KeepsPaths()) { AddSharedPathShaders(Rate, bSecondLobe, Rays.Defines, Rays.Compute); }
+		if (Settings.KeepsPaths()) { AddSharedPathShaders(Query.Facts, Rate, bSecondLobe, Rays.Defines, Rays.Compute); }
 		else if (Rate != EPixelRate::Full) { Rays.Compute.push_back(MakeFillSource(Rate)); }
 	}
 	if (!CVarMixturePdf.GetOnRenderThread()) { Rays.Defines.emplace_back("NO_MIXTURE_PDF", "1"); }

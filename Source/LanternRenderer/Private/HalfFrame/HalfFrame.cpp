@@ -52,6 +52,7 @@ FReducedTextures CreateTextures(FFrameContext& Half, const FGBuffer& From, FGBuf
 	Add(&FGBuffer::Normals, ERTFormat::RGBA16_SNORM, &FHalfTextures::Normals, "HalfNormals");
 	Add(&FGBuffer::BaseColor, ERTFormat::RGBA16_FLOAT, &FHalfTextures::BaseColor, "HalfBaseColor");
 	Add(&FGBuffer::Material, ERTFormat::RGBA8_UNORM, &FHalfTextures::Material, "HalfMaterial");
+	Add(&FGBuffer::BackAlbedo, ERTFormat::RGBA16_FLOAT, &FHalfTextures::BackAlbedo, "HalfBackAlbedo");
 	Add(&FGBuffer::Motion, ERTFormat::RGBA32_FLOAT, &FHalfTextures::Motion, "HalfMotion");
 	constexpr FGraphTexture FGBuffer::*Numbers[] = {&FGBuffer::Classes, &FGBuffer::Channels, &FGBuffer::ToonNumbers};
 	static_assert(std::size(Numbers) == HALF_FRAME_NUMBERS);

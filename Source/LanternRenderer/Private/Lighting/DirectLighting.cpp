@@ -68,7 +68,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
 		for (const FGraphTexture Texture : {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular,
-		         Inputs.IndirectRough, SkyLight, LightsDiffuse, LightsSpecular, Channels, Toon.Normals, Toon.Pixels})
+		         Inputs.IndirectRough, SkyLight, LightsDiffuse, LightsSpecular, Channels, Toon.Normals, Toon.Pixels, G.BackAlbedo})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -94,6 +94,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.Channels = Sampled(Channels);
 			C.ToonNormals = Sampled(Toon.Normals);
 			C.ToonPixels = Sampled(Toon.Pixels);
+			C.BackAlbedo = Sampled(Inputs.GBuffer.BackAlbedo);
 			C.Surroundings = Surroundings;
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
 			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);

@@ -121,7 +121,10 @@ FGraphTexture AddFollowPass(
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
-		if (Channels.IsValid()) { Builder.Read(Channels, ERTAccess::ShaderRead); }
+		for (const FGraphTexture Texture : {Channels, GBuffer.BackAlbedo})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
 		for (const FGraphBuffer Buffer : {List, Rays.Guide}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
 		Builder.Write(Change, ERTAccess::StorageWrite);
 		Builder.AllowAsync();
@@ -135,6 +138,7 @@ FGraphTexture AddFollowPass(
 			C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
 			C.Material = GetSampledIndex(Pass, GBuffer.Material);
 			C.Channels = GetSampledIndex(Pass, Channels);
+			C.BackAlbedo = GetSampledIndex(Pass, GBuffer.BackAlbedo);
 			C.Output = GetStorageIndex(Pass, Change);
 			C.bSpecular = Lobe == ESignal::LocalSpecular ? 1u : 0u;
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);

@@ -75,7 +75,10 @@ FLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const FShad
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
-		if (Channels.IsValid()) { Builder.Read(Channels, ERTAccess::ShaderRead); }
+		for (const FGraphTexture Texture : {Channels, GBuffer.BackAlbedo})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
 		for (const FGraphBuffer Buffer : {Inputs.Queue.Answers, Inputs.Traced.TileLights, Inputs.Traced.Choices, Inputs.Traced.Lit})
 		{
 			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
@@ -98,6 +101,7 @@ FLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const FShad
 			C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
 			C.Material = GetSampledIndex(Pass, GBuffer.Material);
 			C.Channels = GetSampledIndex(Pass, Channels);
+			C.BackAlbedo = GetSampledIndex(Pass, GBuffer.BackAlbedo);
 			C.Lit = GetAddress(Pass, Inputs.Traced.Lit);
 			C.Guide = GetAddress(Pass, Inputs.Traced.Guide) + Inputs.Traced.GuideOffset;
 			C.OutDiffuse = GetStorageIndex(Pass, Lobes.Diffuse);

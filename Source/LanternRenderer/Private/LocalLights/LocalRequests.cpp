@@ -129,10 +129,10 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 {
 	C.BaseColor = GetSampledIndex(Pass, Inputs.GBuffer.BaseColor);
 	C.Material = GetSampledIndex(Pass, Inputs.GBuffer.Material);
+	C.BackAlbedo = GetSampledIndex(Pass, Inputs.GBuffer.BackAlbedo);
 	C.Guide = GetAddress(Pass, Inputs.Guide) + Inputs.GuideOffset;
 	const uint32_t Previous = Inputs.GuideOffset > 0 ? PREVIOUS_GUIDE_BEFORE : PREVIOUS_GUIDE_BEHIND;
-	C.PreviousGuide = Inputs.bPreviousGuide ? Previous : PREVIOUS_GUIDE_NONE;
-	C.Limits |= GetCandidates() << 16;
+	C.Limits |= ((Inputs.bPreviousGuide ? Previous : PREVIOUS_GUIDE_NONE) << 8) | (GetCandidates() << 16);
 	C.Regions = GetAddress(Pass, Inputs.Regions);
 	C.Emitters = GetAddress(Pass, Inputs.Emitters);
 	C.GuideKept = std::exp(-Frame.View.DeltaSeconds / std::max(CVarGuideSeconds.GetOnRenderThread(), 1e-6f));
@@ -141,7 +141,8 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 /// Declares what GUIDED shaders read and write. bChoose: pixels choose there.
 void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs, bool bChoose)
 {
-	for (const FGraphTexture Texture : {Inputs.GBuffer.BaseColor, Inputs.GBuffer.Material}) // a light mask alone needs none
+	// A light mask alone needs none.
+	for (const FGraphTexture Texture : {Inputs.GBuffer.BaseColor, Inputs.GBuffer.Material, Inputs.GBuffer.BackAlbedo})
 	{
 		if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 	}

@@ -72,7 +72,7 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("PathTrace", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(Inputs.Sum, ERTAccess::StorageWrite | ERTAccess::ShaderRead);
-		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, G.Emissive, Channels, Toon})
+		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, G.Emissive, G.BackAlbedo, Channels, Toon})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -93,6 +93,7 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 			C.BaseColor = GetSampledIndex(Pass, G.BaseColor);
 			C.Material = GetSampledIndex(Pass, G.Material);
 			C.Emissive = GetSampledIndex(Pass, G.Emissive);
+			C.BackAlbedo = GetSampledIndex(Pass, G.BackAlbedo);
 			C.Channels = GetSampledIndex(Pass, Channels);
 			C.ToonPixels = GetSampledIndex(Pass, Toon);
 			Pass.CountRays(uint64_t(Frame->Width) * Inputs.RowCount * Inputs.SampleCount);

@@ -17,9 +17,10 @@ TRTConsoleVariable<float> CVarNear("r.RT.GI.Reuse.Near", 16.0f,
 TRTConsoleVariable<bool> CVarReuseCosine("r.RT.Debug.GI.ReuseCosine", true,
     "Planted fault. If off, paths light each pixel around as they light the one that has drawn them, whatever its normal.");
 
-FShaderSource MakeResolveSource(EPixelRate Rate, bool bSecondLobe)
+FShaderSource MakeResolveSource(const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe)
 {
 	FShaderDefines Defines;
+	AddDiffuseTransmissionDefine(Facts, Defines);
 	AddRateDefine(Rate, Defines);
 	if (bSecondLobe) { Defines.emplace_back("SECOND_LOBE", "1"); }
 	if (!CVarReuseCosine.GetOnRenderThread()) { Defines.emplace_back("NO_REUSE_COSINE", "1"); }
@@ -27,16 +28,16 @@ FShaderSource MakeResolveSource(EPixelRate Rate, bool bSecondLobe)
 }
 } // namespace
 
-void AddSharedPathShaders(EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute)
+void AddSharedPathShaders(const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute)
 {
 	InOutDefines.emplace_back(SharedPathsDefine, "1");
-	OutCompute.push_back(MakeResolveSource(Rate, bSecondLobe));
+	OutCompute.push_back(MakeResolveSource(Facts, Rate, bSecondLobe));
 }
 
 FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, uint64_t Threads)
 {
 	FSharedPaths Shared;
-	Shared.Resolve = RequireCompute(Context, MakeResolveSource(Rate, bSecondLobe));
+	Shared.Resolve = RequireCompute(Context, MakeResolveSource(Context.Facts, Rate, bSecondLobe));
 	if (Shared.Resolve) { Shared.Fresh = Context.Graph.CreateBuffer({Threads * sizeof(FSharedPath)}, "SharedPaths"); }
 	return Shared;
 }
@@ -62,6 +63,7 @@ void AddPathResolve(FFrameContext& Context, const FGBuffer& GBuffer, const FShar
 			C.Pass = Frame->Pass;
 			C.Shared = GetAddress(Pass, Shared.Fresh);
 			C.ToonPixels = GetSampledIndex(Pass, Toon);
+			C.BackAlbedo = GetSampledIndex(Pass, GBuffer.BackAlbedo);
 			SetLobePixels(Pass, GBuffer, {Output, Second}, C);
 			Dispatch2D(Pass, Shared.Resolve, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};

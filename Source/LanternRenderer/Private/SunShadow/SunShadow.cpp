@@ -47,7 +47,8 @@ FShaderDefines JoinDefines(FShaderDefines Defines, const FShaderDefines& Others)
 
 FShaderSource MakeResolveSource(const FSceneFacts& Facts, const FSunRates& Rates)
 {
-	const FShaderDefines Rest = JoinDefines(MakeContactDefines(), MakeHostShadowDefines(Facts));
+	FShaderDefines Rest = JoinDefines(MakeContactDefines(), MakeHostShadowDefines(Facts));
+	if (Facts.bHostShadow) { AddDiffuseTransmissionDefine(Facts, Rest); }
 	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), JoinDefines(MakeSettledDefines(Rates), Rest));
 }
 

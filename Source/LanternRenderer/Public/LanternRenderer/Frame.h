@@ -23,6 +23,9 @@ struct FGBuffer
 	/// screen, with z = 0. Pixels with depth 0 are not read. Invalid: the host has none, and moving objects count as still.
 	FGraphTexture Motion;
 	bool bNamesObjects = false; ///< see Motion
+	/// RGBA8_SRGB: rgb albedo for light that arrives on the other side (FBrdf::BackAlbedo), a: share that the front's diffuse albedo has lost
+	/// to it. The lowest bit of w of Normals then says where rgb is not 0. Invalid: nowhere.
+	FGraphTexture BackAlbedo;
 	/// R8_UNORM: what the pixel shows, CLASS_… (SceneTypes.h) over 255. Invalid: with bNamesObjects, a pixel has the class of the
 	/// object that Motion names, and without it none.
 	FGraphTexture Classes;

@@ -36,6 +36,14 @@ struct FSkinningInputs
 	std::vector<glm::mat4> Joints;
 };
 
+/// Whether the host's G-buffer has FGBuffer::BackAlbedo.
+enum class EBackAlbedo : uint8_t
+{
+	None,
+	OfScene, ///< if some material of the scene scatters light through
+	Always
+};
+
 /// What a frame is to do beside its cameras and console variables.
 struct FFrameFeatures
 {
@@ -48,6 +56,7 @@ struct FFrameFeatures
 	bool bRays = false;
 	/// The host has a shadow map of the sun (FFrameContext::HostShadow).
 	bool bHostShadow = false;
+	EBackAlbedo BackAlbedo = EBackAlbedo::OfScene;
 	/// Records acceleration structures where the host calls FFrameContext::RequireRays instead.
 	bool bLateRays = false;
 	/// The frame waits until all of its shaders are compiled, so that each picture is complete. If false, it uses what is
@@ -111,6 +120,8 @@ public:
 	FRTStatus Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress);
 	/// Returns FFrameContext::bMotion of such frames. Between frames.
 	bool FollowsMotion(FRTScene& Scene, const FFrameFeatures& Features);
+	/// Returns whether such frames read FGBuffer::BackAlbedo. Between frames.
+	bool HasBackPixels(FRTScene& Scene, const FFrameFeatures& Features);
 	/// Returns what such frames trace with; without ray generation shaders if they need no pipeline. Between frames.
 	FRTPSODesc GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Features);
 	/// Returns a name for the texts of all shaders that such frames trace with, their includes and the compiler. Another text has

@@ -59,6 +59,7 @@ const FSceneFacts& FSceneUpdate::RefreshFacts()
 	Facts.bOwnShapes = std::any_of(Sections.GetHitPrograms().begin(), Sections.GetHitPrograms().end(), HasOwnShape);
 	Facts.bEmissive = Sections.GetEmissiveRangeCount() > 0;
 	Facts.bTransmissive = Sections.GetTransmissiveRangeCount() > 0;
+	Facts.bDiffuseTransmission = Sections.GetDiffuseTransmissionRangeCount() > 0;
 	Facts.bLightEmission = Sections.GetLightEmissionRangeCount() > 0;
 	RefreshLightFacts();
 	return Facts;

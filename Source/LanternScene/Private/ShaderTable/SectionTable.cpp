@@ -178,8 +178,9 @@ bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialDat
 {
 	const auto Emits = [](const FMaterialData& Data) { return Data.EmissiveWeight > 0.0f || Data.Emissive != glm::vec3(0); };
 	const auto HasOwnLight = [](const FMaterialData& Data) { return Data.LightEmissive != Data.Emissive; };
+	const auto HasBack = [](const FMaterialData& Data) { return Data.DiffuseTransmission > 0.0f; };
 	return Old.Flags != New.Flags || LightShinesThrough(Old) != LightShinesThrough(New) || Old.EmissiveWeight != New.EmissiveWeight ||
-	       Emits(Old) != Emits(New) || HasOwnLight(Old) != HasOwnLight(New) || Old.UVSets != New.UVSets ||
+	       Emits(Old) != Emits(New) || HasOwnLight(Old) != HasOwnLight(New) || HasBack(Old) != HasBack(New) || Old.UVSets != New.UVSets ||
 	       Old.UVTransform[TEXTURE_BASE_COLOR] != New.UVTransform[TEXTURE_BASE_COLOR] ||
 	       Old.UVOffset[TEXTURE_BASE_COLOR] != New.UVOffset[TEXTURE_BASE_COLOR] || MakeOpacityKey(Old) != MakeOpacityKey(New);
 }
@@ -271,6 +272,7 @@ void FSectionTable::UpdateFlags(FSectionRangeId Id)
 {
 	const FSectionRange& Range = Ranges[Id];
 	bool bMasked = false, bDoubleSided = true, bEmissive = false, bLightEmission = false, bTransmissive = false;
+	bool bDiffuseTransmission = false;
 	for (const uint32_t Material : Range.Materials)
 	{
 		bDoubleSided &= (Context.Materials[Material].Flags & MATERIAL_DOUBLE_SIDED) != 0;
@@ -278,10 +280,11 @@ void FSectionTable::UpdateFlags(FSectionRangeId Id)
 		bEmissive |= Data.EmissiveWeight > 0.0f || Data.Emissive != glm::vec3(0);
 		bLightEmission |= Data.LightEmissive != Data.Emissive;
 		bTransmissive |= IsTransmissive(Context, Data);
+		bDiffuseTransmission |= Context.Override == 0 && Data.DiffuseTransmission > 0.0f;
 	}
 	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
 	for (uint32_t Part = 0; Part < Parts; ++Part) { bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0; }
-	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission, bTransmissive});
+	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission, bTransmissive, bDiffuseTransmission});
 	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
 	{
 		RefutedGeometries.push_back(Range.Geometry->weak_from_this());
@@ -295,6 +298,7 @@ void FSectionTable::SetFlags(FSectionRangeId Id, const FRangeFlags& New)
 	MaskedRangeCount += uint32_t(New.bMasked) - uint32_t(Flags.bMasked);
 	EmissiveRangeCount += uint32_t(New.bEmissive) - uint32_t(Flags.bEmissive);
 	TransmissiveRangeCount += uint32_t(New.bTransmissive) - uint32_t(Flags.bTransmissive);
+	DiffuseTransmissionRangeCount += uint32_t(New.bDiffuseTransmission) - uint32_t(Flags.bDiffuseTransmission);
 	LightEmissionRangeCount += uint32_t(New.bLightEmission) - uint32_t(Flags.bLightEmission);
 	Flags = New;
 	MarkRange(Id);

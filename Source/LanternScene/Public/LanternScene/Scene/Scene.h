@@ -53,6 +53,7 @@ struct FSceneFacts
 	bool bOwnShapes = false;
 	bool bEmissive = false;
 	bool bTransmissive = false;  ///< light shines through some material
+	bool bDiffuseTransmission = false; ///< some material scatters light through to its other side
 	bool bLightEmission = false; ///< some of it lights otherwise than it looks: FMaterialData::LightEmissive
 	bool bSun = false;
 	bool bSky = false;
@@ -63,6 +64,7 @@ struct FSceneFacts
 	bool bCharacters = false; ///< some objects are not shadowed by characters: FRTObjectTraits
 	bool bToon = false;       ///< light falls on some objects as on a drawing: FToonStyle
 	bool bToonLayer = false;  ///< some of them have an Occlusion
+	bool bBackPixels = false; ///< the frame's host has FGBuffer::BackAlbedo; set by the renderer
 	bool bHostShadow = false; ///< the frame's host has a shadow map of the sun; set by the renderer
 	/// The frame's host reads the light mask, and there is a light for it. Set by the renderer.
 	bool bLightMask = false;

@@ -33,6 +33,7 @@ struct FRangeFlags
 	bool bEmissive = false;      ///< some material emits
 	bool bLightEmission = false; ///< some material lights otherwise than it looks: FMaterialData::LightEmissive
 	bool bTransmissive = false;  ///< light shines through some material
+	bool bDiffuseTransmission = false; ///< some material scatters light through to its other side
 	friend bool operator==(const FRangeFlags&, const FRangeFlags&) = default;
 };
 
@@ -82,6 +83,7 @@ public:
 	uint32_t GetMaskedRangeCount() const { return MaskedRangeCount; }
 	uint32_t GetLightEmissionRangeCount() const { return LightEmissionRangeCount; }
 	uint32_t GetTransmissiveRangeCount() const { return TransmissiveRangeCount; }
+	uint32_t GetDiffuseTransmissionRangeCount() const { return DiffuseTransmissionRangeCount; }
 	uint32_t GetEmissiveRangeCount() const { return EmissiveRangeCount; }
 
 	/// Returns the part of a range's surface that a section has, by its triangles: 0 to 1.
@@ -167,6 +169,7 @@ private:
 	std::vector<FSectionRangeId> FreeIds;
 	std::vector<FSectionRangeId> Buckets; // a power of two
 	uint32_t RangeCount = 0, MaskedRangeCount = 0, EmissiveRangeCount = 0, LightEmissionRangeCount = 0, TransmissiveRangeCount = 0;
+	uint32_t DiffuseTransmissionRangeCount = 0;
 	std::deque<std::vector<FSectionRangeId>> RangesOfGeometry; // by its slot
 	std::vector<std::vector<FMaterialUse>> UsesOfMaterial;
 
