@@ -26,7 +26,9 @@ vec3 DecodeNormal(vec4 Texel)
 {
 	if (Has(HOST_NORMALS_UNSIGNED)) { Texel = Texel * 2.0 - 1.0; }
 	vec3 N = Has(HOST_NORMALS_OCTAHEDRAL) ? OctDecode(Texel.xy) : Texel.xyz;
-	return NormalizeOr(Push.NormalX * N.x + Push.NormalY * N.y + Push.NormalZ * N.z, vec3(0.0));
+	vec3 NormalZ = cross(Push.NormalX, Push.NormalY);
+	if (Has(HOST_NORMALS_MIRRORED)) { NormalZ = -NormalZ; }
+	return NormalizeOr(Push.NormalX * N.x + Push.NormalY * N.y + NormalZ * N.z, vec3(0.0));
 }
 
 float DistanceError(FViewConstants View, float Distance)
@@ -101,6 +103,7 @@ void StoreNormals(FViewConstants View, ivec2 Pixel, float Distance, vec3 Positio
 	else { Ng = DeriveNormal(View, Pixel, Distance, Position, N, bSure); }
 	if (Ng == vec3(0.0)) { Ng = -Forward; }
 	vec2 Geometric = OctEncode(TowardsCamera(Ng, Forward));
+	if (Push.BackAlbedo != NO_TEXTURE) { Geometric = MarkBack(Geometric, Fetch(Push.BackAlbedo, Pixel).rgb != vec3(0.0)); }
 	imageStore(Images[Push.OutNormals], Pixel, vec4(OctEncode(N), View.bDerivedNormals != 0u ? MarkSure(Geometric, bSure) : Geometric));
 }
 
@@ -148,5 +151,6 @@ void main()
 		if (Distance > 0.0) { StoreMotion(View, Pixel, Position); }
 		else { imageStore(Images[Push.OutMotion], Pixel, vec4(0.0)); }
 	}
+	if (Push.OutBackAlbedo != NO_TEXTURE) { imageStore(Images[Push.OutBackAlbedo], Pixel, Fetch(Push.BackAlbedo, Pixel)); }
 	if (Push.OutBaseColor != NO_TEXTURE || Push.OutMaterial != NO_TEXTURE) { StoreMaterial(Pixel); }
 }

@@ -122,7 +122,7 @@ FBrdf MakeGBufferBrdf(vec4 BaseColor, vec4 Material)
 }
 
 // Texture: sampled index of FGBuffer::BackAlbedo, or NO_TEXTURE. Returns FBrdf::BackAlbedo, and in a what the Lambert base loses to it.
-vec4 LoadBack(uint Texture, ivec2 Pixel) { return Texture != NO_TEXTURE ? texelFetch(Textures[Texture], Pixel, 0) : vec4(0.0); }
+vec4 LoadBack(uint Texture, ivec2 Pixel) { return Texture != NO_TEXTURE ? clamp(texelFetch(Textures[Texture], Pixel, 0), 0.0, 1.0) : vec4(0.0); }
 
 // Adds the lobe of light from behind.
 void AddBackLobe(uint Texture, ivec2 Pixel, inout FBrdf InOut)

@@ -19,18 +19,20 @@ LANTERN_SHARED_BEGIN
 #define HOST_MOTION_DISTANCE 128u     // z and w are as in FGBuffer::Motion; else z is that of a surface that stands still
 #define HOST_MOTION_PARTIAL 256u      // texels of 0 were not written: the camera's motion stands in
 #define HOST_MATERIAL_UNREAL 512u     // metallic, specular, roughness
+#define HOST_NORMALS_MIRRORED 1024u   // the third axis of the normals' space is −X × Y; else X × Y
 
 // All textures: sampled indices, or NO_TEXTURE. Outputs: storage indices; NO_TEXTURE: the host's own texture is read as it is.
 struct FHostSurfaceConstants
 {
 	FPassConstants Pass;
-	uint Depth, Normals, GeometricNormals, Motion, BaseColor, Material;
-	uint OutDepth, OutNormals, OutMotion, OutBaseColor, OutMaterial;
+	uint Depth, Normals, GeometricNormals, Motion, BaseColor, Material, BackAlbedo;
+	uint OutDepth, OutNormals, OutMotion, OutBaseColor, OutMaterial, OutBackAlbedo;
 	uint Offset; // of the view in the textures, pixels: x | y << 16
 	uint Flags;
 	float DepthAtZero, DepthAtOne; // see FHostDepth
 	vec2 MotionScale, MotionOffset;
-	vec3 NormalX, NormalY, NormalZ; // axes of the normals' space, in the world
+	vec3 NormalX, NormalY; // axes of the normals' space, in the world, unit length and orthogonal
+	uint Pad;
 };
 LANTERN_ASSERT_SIZE(FHostSurfaceConstants, 128);
 

@@ -40,6 +40,8 @@ float KeepVisibility(uvec2 Pixel)
 float FindContact(FViewConstants View, uvec2 Pixel)
 {
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), LoadDepth(Push.Depth, ivec2(Pixel)));
+	// Depth knows nothing of what lies behind a leaf, and would take the leaf itself for a blocker.
+	if (Point.bBack && dot(Point.Ng, -FSceneRef(Push.Pass.Scene).Data.SunDirection) < 0.0) { return -1.0; }
 	return FindContact(Push.Contact, FSceneRef(Push.Pass.Scene).Data, View, Push.Depth, Pixel, Point);
 }
 #endif

@@ -236,6 +236,7 @@ FSignalPicture FFlatEngineTest::Render(const std::function<void(IRTModuleRendere
 	Fill(*Renderer);
 	FRTModuleFrame Frame = DescribeFrame();
 	Frame.Wanted = Wanted;
+	if (ChangeFrame) { ChangeFrame(Frame); }
 	Readbacks.clear();
 	for (int Index = 0; Index < Frames && !HasFatalFailure(); ++Index)
 	{

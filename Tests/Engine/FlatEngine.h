@@ -38,6 +38,8 @@ protected:
 	FSignalPicture Render(const std::function<void(IRTModuleRenderer&)>& Fill, const FSignalSet& Wanted);
 	/// Called before frame Index of each picture; may be empty.
 	std::function<void(IRTModuleRenderer& Renderer, int Index)> BeforeFrame;
+	/// Changes what is handed to the plugin; may be empty.
+	std::function<void(FRTModuleFrame&)> ChangeFrame;
 	/// A buffer with Bytes in it, imported as an engine's.
 	TRTRef<IRTBuffer> ImportBytes(const std::vector<uint8_t>& Bytes, const char* Name);
 	/// A texture with these texels, in ShaderRead.

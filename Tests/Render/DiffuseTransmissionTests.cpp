@@ -76,7 +76,10 @@ protected:
 		SetSun(0.5, 4.0f, {0.3, -0.8, 1.0});
 		SetSky(glm::vec3(0.3f));
 	}
-	static FView LookAtScreens(uint32_t Width = 64, uint32_t Height = 36) { return LookAt({0, 1.3, 3.6}, {0, 0.6, 0}, 0.75f, Width, Height); }
+	static FView LookAtScreens(uint32_t Width = 64, uint32_t Height = 36)
+	{
+		return LookAt({0, 1.3, 3.6}, {0, 0.6, 0}, 0.75f, Width, Height);
+	}
 };
 
 TEST_F(FDiffuseTransmissionTest, EvenSkyLightsBothSides)
@@ -186,9 +189,10 @@ TEST_F(FDiffuseTransmissionTest, RoomBehindPaperAsTheReference)
 	const int32_t Wall = Scene.AddLambert(glm::vec3(0.6f), glm::vec3(0), true);
 	const int32_t Paper = Scene.AddMaterial(MakePaper());
 	const float S = 2.0f;
-	Scene.AddNode(Scene.AddMesh({{Wall, {{-S, 0, -S}, {-S, 0, S}, {S, 0, S}, {S, 0, -S}}}, {Wall, {{-S, S, -S}, {S, S, -S}, {S, S, S}, {-S, S, S}}},
-	    {Wall, {{-S, 0, -S}, {S, 0, -S}, {S, S, -S}, {-S, S, -S}}}, {Wall, {{-S, 0, -S}, {-S, S, -S}, {-S, S, S}, {-S, 0, S}}},
-	    {Wall, {{S, 0, -S}, {S, 0, S}, {S, S, S}, {S, S, -S}}}, {Paper, {{-S, 0, S}, {-S, S, S}, {S, S, S}, {S, 0, S}}}}));
+	Scene.AddNode(
+	    Scene.AddMesh({{Wall, {{-S, 0, -S}, {-S, 0, S}, {S, 0, S}, {S, 0, -S}}}, {Wall, {{-S, S, -S}, {S, S, -S}, {S, S, S}, {-S, S, S}}},
+	        {Wall, {{-S, 0, -S}, {S, 0, -S}, {S, S, -S}, {-S, S, -S}}}, {Wall, {{-S, 0, -S}, {-S, S, -S}, {-S, S, S}, {-S, 0, S}}},
+	        {Wall, {{S, 0, -S}, {S, 0, S}, {S, S, S}, {S, S, -S}}}, {Paper, {{-S, 0, S}, {-S, S, S}, {S, S, S}, {S, 0, S}}}}));
 	ASSERT_TRUE(Load(std::move(Scene.Scene)));
 	SetSun(0.5, 20.0f, {0.2, -0.5, -1.0}); // on the paper, from outside
 	SetSky(glm::vec3(0.5f));
@@ -256,8 +260,8 @@ TEST_F(FDiffuseTransmissionTest, NothingOfItWithoutSuchMaterials)
 		{
 			if (!Type.ClosestHit) { continue; }
 			const auto& Defines = Type.ClosestHit->Defines;
-			const bool bKnows = std::any_of(
-			    Defines.begin(), Defines.end(), [](const auto& Define) { return Define.first == "HAS_DIFFUSE_TRANSMISSION"; });
+			const bool bKnows =
+			    std::any_of(Defines.begin(), Defines.end(), [](const auto& Define) { return Define.first == "HAS_DIFFUSE_TRANSMISSION"; });
 			if (Type.Name == "MATERIAL" || Type.Name == "STANDARD") { EXPECT_EQ(bKnows, Of > 0.0f) << Type.Name; }
 		}
 	}

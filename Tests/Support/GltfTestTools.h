@@ -166,4 +166,26 @@ inline const std::vector<uint8_t>& GetTinyPng()
 	return Png;
 }
 
+/// Two textures of one image, used as colour and as data.
+inline FGltfMaker MakeTextured()
+{
+	FGltfMaker Maker;
+	auto& Primitive = Maker.AddTriangle();
+	Primitive["material"] = 0;
+	Primitive["attributes"]["NORMAL"] = Maker.AddVec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
+	Primitive["attributes"]["TEXCOORD_0"] = Maker.AddAccessor(std::vector<float>{0, 1, 1, 1, 0, 0}, "VEC2", 5126, 3);
+	Maker.Json["images"] = {{{"uri", "data:image/png;base64," + EncodeBase64(GetTinyPng())}}};
+	Maker.Json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
+	Maker.Json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
+	Maker.Json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+	    {"normalTexture", {{"index", 1}, {"scale", 0.5}}}, {"emissiveTexture", {{"index", 0}}}}};
+	return Maker;
+}
+
+inline bool HasWarning(const FSceneDescription& Scene, const std::string& Word)
+{
+	return std::any_of(
+	    Scene.Warnings.begin(), Scene.Warnings.end(), [&](const std::string& Warning) { return Warning.find(Word) != std::string::npos; });
+}
+
 } // namespace Lantern

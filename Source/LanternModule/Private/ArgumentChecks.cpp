@@ -245,7 +245,8 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	const std::pair<float, const char*> Shares[] = {{Material.Metallic, "Metallic"}, {Material.Roughness, "Roughness"},
 	    {Material.OcclusionStrength, "OcclusionStrength"}, {Material.Specular, "Specular"}, {Material.Transmission, "Transmission"},
 	    {Material.DiffuseTransmission, "DiffuseTransmission"}, {Material.DiffuseTransmissionColor[0], "DiffuseTransmissionColor[0]"},
-	    {Material.DiffuseTransmissionColor[1], "DiffuseTransmissionColor[1]"}, {Material.DiffuseTransmissionColor[2], "DiffuseTransmissionColor[2]"}};
+	    {Material.DiffuseTransmissionColor[1], "DiffuseTransmissionColor[1]"},
+	    {Material.DiffuseTransmissionColor[2], "DiffuseTransmissionColor[2]"}};
 	for (const auto& [Value, Name] : Shares)
 	{
 		if (!(Value >= 0.0f && Value <= 1.0f))

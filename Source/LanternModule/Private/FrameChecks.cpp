@@ -158,7 +158,14 @@ FRTStatus CheckMaterialTextures(const FRTModuleFrame& Frame)
 	        "RGBA8_UNORM, BGRA8_UNORM or RGBA16_FLOAT", "MaterialAccess"}};
 	FRTStatus Status;
 	for (const FGBufferTexture& Texture : bUnreal ? Unreal : Native) { Status = Status ? CheckTexture(Texture, Depth) : Status; }
-	return Status;
+	if (!Status || Frame.BackAlbedo == nullptr) { return Status; }
+	if (Frame.BaseColor == nullptr || Frame.Material == nullptr)
+	{
+		return Refuse("FRTModuleFrame::BackAlbedo needs BaseColor and Material");
+	}
+	return CheckTexture({Frame.BackAlbedo, Frame.BackAlbedoAccess, {RGBA8_SRGB, BGRA8_SRGB, RGBA8_UNORM, BGRA8_UNORM, RGBA16_FLOAT},
+	                        "back albedo", "RGBA8_SRGB, BGRA8_SRGB, RGBA8_UNORM, BGRA8_UNORM or RGBA16_FLOAT", "BackAlbedoAccess"},
+	    Depth);
 }
 
 FRTStatus CheckLayout(const FRTModuleGBufferLayout& Layout)
@@ -236,7 +243,8 @@ FRTStatus CheckOwners(const FRTModuleFrame& Frame, const IRTDevice& Device)
 	FRTStatus Status = Check(Frame.Commands, "Commands");
 	const std::pair<const IRTTexture*, const char*> Textures[] = {{Frame.Depth, "Depth"}, {Frame.Normals, "Normals"},
 	    {Frame.GeometricNormals, "GeometricNormals"}, {Frame.Motion, "Motion"}, {Frame.BaseColor, "BaseColor"},
-	    {Frame.Material, "Material"}, {Frame.Classes, "Classes"}, {Frame.Channels, "Channels"}, {Frame.ToonNumbers, "ToonNumbers"}};
+	    {Frame.Material, "Material"}, {Frame.Classes, "Classes"}, {Frame.Channels, "Channels"}, {Frame.ToonNumbers, "ToonNumbers"},
+	    {Frame.BackAlbedo, "BackAlbedo"}};
 	for (const auto& [Texture, Name] : Textures) { Status = Status ? Check(Texture, Name) : Status; }
 	return Status;
 }

@@ -97,6 +97,7 @@ FHostSurface DescribeSurface(const FRTModuleFrame& Frame, const FModuleWorld& Wo
 	Out.MotionScale = {Layout.MotionScale[0], Layout.MotionScale[1]};
 	Out.MotionOffset = {Layout.MotionOffset[0], Layout.MotionOffset[1]};
 	Out.bUnrealMaterial = Layout.Material == ERTModuleMaterialLayout::Unreal;
+	Out.bBackAlbedo = Frame.BackAlbedo != nullptr;
 	Out.Offset = {Frame.OffsetX, Frame.OffsetY};
 	return Out;
 }
@@ -122,6 +123,7 @@ void ImportTextures(FFrameGraph& Graph, const FRTModuleFrame& Frame, FHostSurfac
 	Out.Motion = Import(Frame.Motion, Frame.MotionAccess, "EngineMotion");
 	Out.BaseColor = Import(Frame.BaseColor, Frame.BaseColorAccess, "EngineBaseColor");
 	Out.Material = Import(Frame.Material, Frame.MaterialAccess, "EngineMaterial");
+	Out.BackAlbedo = Import(Frame.BackAlbedo, Frame.BackAlbedoAccess, "EngineBackAlbedo");
 }
 
 uint32_t ToMask(ERTModuleCasters Held)
@@ -271,6 +273,7 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame, bool b
 	Features.bHostSurface = bHostSurface;
 	Features.bCameraMotion = Frame.Motion == nullptr;
 	Features.bHostShadow = Frame.HostShadow != nullptr;
+	Features.BackAlbedo = Frame.BackAlbedo != nullptr ? EBackAlbedo::Always : EBackAlbedo::None;
 	return Features;
 }
 

@@ -18,7 +18,8 @@ TRTConsoleVariable<bool> CVarTransmission("r.RT.Transmission", true,
     "Light shines through materials that say so (glTF: transmission), in the picture, under rays, and to what lies behind. Blended ones "
     "(glTF: BLEND) show their layers. Off: the first are opaque, and the others are cut at half their opacity.");
 TRTConsoleVariable<bool> CVarDiffuseTransmission("r.RT.DiffuseTransmission", true,
-    "Light scatters through leaves, paper and cloth to their other side, where materials say so (glTF: KHR_materials_diffuse_transmission). "
+    "Light scatters through leaves, paper and cloth to their other side, where materials say so (glTF: "
+    "KHR_materials_diffuse_transmission). "
     "Off: all their diffuse light leaves on the side that it arrives on.");
 TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
     "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "

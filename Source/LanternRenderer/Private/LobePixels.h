@@ -13,7 +13,10 @@ struct FLobePixels
 };
 
 /// Whether what a pixel reflects counts, beside where it is.
-inline bool ReadsSurface(const FGBuffer& GBuffer, const FLobePixels& Pixels) { return Pixels.Second.IsValid() || GBuffer.BackAlbedo.IsValid(); }
+inline bool ReadsSurface(const FGBuffer& GBuffer, const FLobePixels& Pixels)
+{
+	return Pixels.Second.IsValid() || GBuffer.BackAlbedo.IsValid();
+}
 
 /// Declares the G-buffer and what is written.
 inline void DeclareLobePixels(FPassBuilder& Builder, const FGBuffer& GBuffer, const FLobePixels& Pixels)

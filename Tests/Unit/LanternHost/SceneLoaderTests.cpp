@@ -21,12 +21,6 @@ size_t CountTriangles(const FSceneDescription& Scene)
 	return Count;
 }
 
-bool HasWarning(const FSceneDescription& Scene, const std::string& Word)
-{
-	return std::any_of(
-	    Scene.Warnings.begin(), Scene.Warnings.end(), [&](const std::string& Warning) { return Warning.find(Word) != std::string::npos; });
-}
-
 TEST(VertexPacking, UnitVectorsSurviveWithinHalfAMinuteOfArc)
 {
 	for (int I = 0; I < 2000; ++I)
@@ -179,22 +173,6 @@ TEST(SceneLoader, PrimitivesBecomeSectionsAndShareTheirVertices)
 	EXPECT_EQ(Result.Scene->Nodes[0].Mesh, Result.Scene->Nodes[1].Mesh);
 }
 
-/// Two textures of one image, used as colour and as data.
-FGltfMaker MakeTextured()
-{
-	FGltfMaker Maker;
-	auto& Primitive = Maker.AddTriangle();
-	Primitive["material"] = 0;
-	Primitive["attributes"]["NORMAL"] = Maker.AddVec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
-	Primitive["attributes"]["TEXCOORD_0"] = Maker.AddAccessor(std::vector<float>{0, 1, 1, 1, 0, 0}, "VEC2", 5126, 3);
-	Maker.Json["images"] = {{{"uri", "data:image/png;base64," + EncodeBase64(GetTinyPng())}}};
-	Maker.Json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
-	Maker.Json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
-	Maker.Json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
-	    {"normalTexture", {{"index", 1}, {"scale", 0.5}}}, {"emissiveTexture", {{"index", 0}}}}};
-	return Maker;
-}
-
 TEST(SceneLoader, AnImageUsedAsColourAndAsDataIsThereTwice)
 {
 	const FLoadResult Result = MakeTextured().Load();
@@ -227,66 +205,6 @@ TEST(SceneLoader, TangentsAreGeneratedWhereANormalMapNeedsThem)
 	EXPECT_LT(glm::length(Tangent - glm::vec4(1, 0, 0, 1)), 1e-3f);
 	Maker.Json["materials"][0].erase("normalTexture");
 	EXPECT_FALSE(Maker.Load().Scene->Meshes[0].bHasTangents);
-}
-
-TEST(SceneLoader, LightEmissionOfAMaterialIsRead)
-{
-	FGltfMaker Maker = MakeTextured();
-	auto& Material = Maker.Json["materials"][0];
-	Material["emissiveFactor"] = {1, 0.5, 0};
-	const auto Load = [&] {
-		const FLoadResult Result = Maker.Load();
-		EXPECT_TRUE(Result.Scene) << Result.Error;
-		return Result.Scene ? Result.Scene->Materials[0].LightEmissive : std::nullopt;
-	};
-	EXPECT_FALSE(Load());
-	Material["extras"]["lantern"] = {{"lightEmissiveStrength", 510}};
-	EXPECT_EQ(Load(), glm::vec3(510, 255, 0)) << "of the factor that cameras see";
-	Material["extras"]["lantern"]["lightEmissiveFactor"] = {0, -1, 0.5};
-	EXPECT_EQ(Load(), glm::vec3(0, 0, 255));
-	Material["extras"]["lantern"]["lightEmissiveStrength"] = 1e38;
-	Material["extras"]["lantern"]["lightEmissiveFactor"] = {1e5, 0, 0};
-	EXPECT_FALSE(Maker.Load().Scene) << "no float holds it";
-}
-
-TEST(SceneLoader, MaterialExtensionsAreRead)
-{
-	FGltfMaker Maker = MakeTextured();
-	auto& Material = Maker.Json["materials"][0];
-	Material["emissiveFactor"] = {1, 0.5, 0};
-	Material["alphaMode"] = "MASK";
-	Material["alphaCutoff"] = 0.25;
-	Material["doubleSided"] = true;
-	Material["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}, {"KHR_materials_ior", {{"ior", 1.333}}},
-	    {"KHR_materials_specular", {{"specularFactor", 0.25}}},
-	    {"KHR_materials_transmission", {{"transmissionFactor", 1}, {"transmissionTexture", {{"index", 0}}}}},
-	    {"KHR_materials_volume", {{"thicknessFactor", 0.1}, {"attenuationDistance", 0.5}, {"attenuationColor", {1, 0.5, 0}}}}};
-	Material["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
-	    {"offset", {0.5, 0.25}}, {"rotation", glm::half_pi<double>()}, {"scale", {2, 3}}, {"texCoord", 1}};
-	Maker.Json["extensionsUsed"] = {"KHR_texture_transform", "EXT_nonsense"};
-	const FLoadResult Result = Maker.Load();
-	ASSERT_TRUE(Result.Scene) << Result.Error;
-	const FHostMaterial& M = Result.Scene->Materials[0];
-	EXPECT_EQ(M.Emissive, glm::vec3(8, 4, 0));
-	EXPECT_EQ(M.AlphaMode, EAlphaMode::Mask);
-	EXPECT_EQ(M.AlphaCutoff, 0.25f);
-	EXPECT_TRUE(M.bDoubleSided);
-	EXPECT_EQ(M.Ior, 1.333f);
-	EXPECT_EQ(M.Specular, 0.25f);
-	EXPECT_EQ(M.Transmission, 1.0f);
-	EXPECT_GE(M.Slots[TEXTURE_TRANSMISSION].Texture, 0);
-	EXPECT_TRUE(M.bSolid);
-	EXPECT_EQ(M.Absorption.x, 0.0f);
-	EXPECT_NEAR(M.Absorption.y, 2.0f * std::log(2.0f), 1e-5f);
-	EXPECT_GT(M.Absorption.z, 20.0f) << "black is finite";
-	const FHostTextureSlot& Slot = M.Slots[TEXTURE_BASE_COLOR];
-	EXPECT_EQ(Slot.UVSet, 1u);
-	EXPECT_EQ(Slot.Offset, glm::vec2(0.5f, 0.25f));
-	// A quarter turn counter-clockwise with v pointing down: u' = 3v, v' = −2u.
-	EXPECT_LT(glm::length(Slot.Transform - glm::vec4(0, 3, -2, 0)), 1e-5f);
-	EXPECT_TRUE(HasWarning(*Result.Scene, "EXT_nonsense"));
-	EXPECT_EQ(Result.Scene->Warnings.size(), 1u);
-	EXPECT_FALSE(M.LightEmissive);
 }
 
 TEST(SceneLoader, LightsAndCamerasAreRead)

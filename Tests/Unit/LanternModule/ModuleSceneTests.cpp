@@ -71,8 +71,10 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 	Material.bSolid = true;
 	Material.AttenuationColor[1] = 0.5f;
 	Material.AttenuationDistance = 0.25f;
+	Material.DiffuseTransmission = 0.375f;
+	Material.DiffuseTransmissionColor[1] = 0.625f;
 	FRTModuleMap* const Maps[] = {&Material.BaseColorMap, &Material.MetallicRoughnessMap, &Material.NormalMap, &Material.OcclusionMap,
-	    &Material.EmissiveMap, &Material.TransmissionMap};
+	    &Material.EmissiveMap, &Material.TransmissionMap, &Material.DiffuseTransmissionMap, &Material.DiffuseTransmissionColorMap};
 	for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot) { *Maps[Slot] = MakeMap(Slot % 2); }
 	ERTMaterialHandle Handle = ERTMaterialHandle::None;
 	ASSERT_OK(Renderer->AddMaterial(Material, &Handle));
@@ -86,7 +88,9 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 		EXPECT_EQ(Data.UVTransform[Slot], glm::vec4(float(Slot + 1), 0.5f, 0, 1)) << Slot;
 		EXPECT_EQ(Data.UVOffset[Slot], glm::vec2(0, -float(Slot + 1))) << Slot;
 	}
-	EXPECT_EQ(Data.UVSets, 0b101010u);
+	EXPECT_EQ(Data.UVSets, 0b10101010u);
+	EXPECT_EQ(Data.DiffuseTransmission, 0.375f);
+	EXPECT_EQ(Data.DiffuseTransmissionColor, glm::vec3(1, 0.625f, 1));
 	EXPECT_EQ(Data.Flags, MATERIAL_SOLID);
 	EXPECT_NEAR(Data.Absorption.y, std::log(2.0f) / 0.25f, 1e-5f);
 	EXPECT_EQ(Data.Absorption.x, 0.0f);

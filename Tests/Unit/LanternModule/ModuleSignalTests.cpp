@@ -406,6 +406,12 @@ TEST_F(FModuleSignalTest, WrongInputsAreNamed)
 	Frame.ToonNumbers = Normals.Get();
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the toon numbers texture must be R8_UNORM");
 	Frame = DescribeAll();
+	Frame.BackAlbedo = Normals.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the back albedo texture must be RGBA8_SRGB");
+	Frame.BackAlbedo = BaseColor.Get();
+	Frame.Material = nullptr;
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "BackAlbedo needs BaseColor and Material");
+	Frame = DescribeAll();
 	Frame.BaseColor = Material.Get();
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the base colour texture must be RGBA8_SRGB");
 	Frame = DescribeAll();
@@ -446,6 +452,9 @@ TEST_F(FModuleSignalTest, ImpossibleMaterialsAreNamed)
 		Bad = {};
 		Bad.Roughness = Value;
 		Refuse(Bad, "Roughness");
+		Bad = {};
+		Bad.DiffuseTransmissionColor[2] = Value;
+		Refuse(Bad, "DiffuseTransmissionColor[2]");
 	}
 	FRTModuleMaterial Bad;
 	Bad.AlphaCutoff = NaN;

@@ -70,7 +70,8 @@ void AddBranch(FMeshBuilder& Leaves, const glm::vec3& Start, const glm::vec3& En
 	for (int I = 0; I < Count; ++I)
 	{
 		const float T = (float(I) + Random.NextFloat()) / float(Count), Sag = -0.5f * T * (1.0f - T);
-		const glm::vec3 Place = glm::mix(Start, End, T) + glm::vec3(Random.Between(-0.18f, 0.18f), Sag + Random.Between(-0.2f, 0.1f), Random.Between(-0.18f, 0.18f));
+		const glm::vec3 Place = glm::mix(Start, End, T) +
+		                        glm::vec3(Random.Between(-0.18f, 0.18f), Sag + Random.Between(-0.2f, 0.1f), Random.Between(-0.18f, 0.18f));
 		const float Size = Random.Between(0.1f, 0.19f);
 		glm::mat4 Transform = glm::translate(glm::mat4(1), Place);
 		Transform = glm::rotate(Transform, Random.Between(0.0f, glm::two_pi<float>()), {0, 1, 0});

@@ -63,7 +63,7 @@ struct FHostMaterial
 	float NormalScale = 1.0f, OcclusionStrength = 1.0f;
 	float AlphaCutoff = 0.5f;
 	float Ior = 1.5f, Specular = 1.0f, Transmission = 0.0f;
-	/// Of the diffuse layer's light, the share that leaves the surface on its other side, and the factor of what leaves there.
+	/// Share of the diffuse layer's light that leaves the surface on its other side, and the factor of what leaves there.
 	float DiffuseTransmission = 0.0f;
 	glm::vec3 DiffuseTransmissionColor{1};
 	/// With Transmission: the surface of a volume, which bends and absorbs light. Else a thin sheet.

@@ -26,7 +26,7 @@ namespace Lantern
 
 /// Incremented when anything changes that an engine was compiled with: in this folder, LanternSignals/Signals.h or
 /// the RHI. The library refuses other versions. A new signal is no change: the arrays have room for MaxSignals.
-inline constexpr uint32_t ModuleVersion = 9;
+inline constexpr uint32_t ModuleVersion = 10;
 
 class IRTModuleVulkan;
 
@@ -130,7 +130,7 @@ struct FRTModuleMaterial
 	/// the section of a mesh must say that it may be masked. With Transmission > 0, that counts alone. Light sampling finds no emission of
 	/// such surfaces, but paths of indirect light do. If r.RT.Transmission is off, they are cut at AlphaCutoff.
 	bool bBlended = false;
-	/// Of the light that the diffuse layer takes in, the share that leaves the surface on its other side, 0–1: leaves, paper, cloth
+	/// Share of the diffuse layer's light that leaves the surface on its other side, 0–1: leaves, paper, cloth
 	/// (KHR_materials_diffuse_transmission). Pixels show it if FRTModuleFrame::BackAlbedo says so.
 	float DiffuseTransmission = 0.0f;
 	float DiffuseTransmissionColor[3] = {1, 1, 1}; ///< factor of what leaves there, linear, 0–1

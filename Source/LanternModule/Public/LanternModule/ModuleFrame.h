@@ -201,6 +201,13 @@ struct FRTModuleFrame
 	IRTTexture* Channels = nullptr;
 	/// R8_UNORM: FRTModuleToon::Number of each pixel's object over 255; 0: none. May be null: no toon style has an effect.
 	IRTTexture* ToonNumbers = nullptr;
+	/// RGBA8_SRGB: what shines diffusely through each pixel's surface, as leaves and paper do. May be null.
+	/// - rgb: albedo for light that arrives on the side away from the camera; 0: none shines through.
+	/// - a: share that the diffuse albedo of BaseColor has lost to it. 0 keeps that whole, as for subsurface colours that artists add.
+	///
+	/// Needs BaseColor and Material. Sun visibility is then that of the lit side. Diffuse signals hold the light of both sides: the
+	/// engine multiplies them by BaseColor (1 - metalness)(1 - a) + rgb, as FGBuffer's diffuse albedo.
+	IRTTexture* BackAlbedo = nullptr;
 	ERTAccess DepthAccess = ERTAccess::ShaderRead;
 	ERTAccess NormalsAccess = ERTAccess::ShaderRead;
 	ERTAccess MotionAccess = ERTAccess::ShaderRead;
@@ -209,6 +216,7 @@ struct FRTModuleFrame
 	ERTAccess ClassesAccess = ERTAccess::ShaderRead;
 	ERTAccess ChannelsAccess = ERTAccess::ShaderRead;
 	ERTAccess ToonNumbersAccess = ERTAccess::ShaderRead;
+	ERTAccess BackAlbedoAccess = ERTAccess::ShaderRead;
 	/// Geometric normals, coded as Normals are. May be null, see Layout.bGeometricInZw.
 	IRTTexture* GeometricNormals = nullptr;
 	ERTAccess GeometricNormalsAccess = ERTAccess::ShaderRead;

@@ -126,7 +126,7 @@ void TraceFirst(FPassContext& Pass, const FFrameContext& Frame, const FPaths& Pa
 /// Whether pixels gather light from behind as well.
 bool GathersBack(const FBruteForcePass& Settings, const FGBuffer& GBuffer)
 {
-	return Settings.Signal == ESignal::DiffuseGI && GBuffer.BackAlbedo.IsValid();
+	return Settings.bBothSides && GBuffer.BackAlbedo.IsValid();
 }
 
 bool NeedsSurface(const FBruteForcePass& Settings, const FGBuffer& GBuffer, const FPaths& Paths)

@@ -33,6 +33,9 @@ struct FBruteForcePass
 	bool (*FromProbes)() = [] { return false; };
 	/// Whether paths of pixels light the pixels around as well. For white Lambert lobes; does not count with probes.
 	bool (*KeepsPaths)() = [] { return false; };
+	/// Whether paths of a white Lambert lobe leave either side of what lets light through, where the G-buffer has BackAlbedo. Base colour and
+	/// material are then read.
+	bool bBothSides = false;
 };
 
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query);

@@ -71,7 +71,7 @@ EPixelRate GetValueRate() { return IsProbeRoute() || IsReused() ? EPixelRate::Fu
 constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, "r.RT.GI", [] { return CVarRoute.GetOnRenderThread() != 0; }, CVarSamples,
     CVarBounces, nullptr, [] { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }, &CVarRate, &CVarPath,
     [] { return CVarGuide.GetOnRenderThread(); }, "diffuse global illumination is", ESignal::RoughSpecular,
-    [](const FPassQuery& Query) { return ChooseRoughSpecularRays(Query).Path != ERayPath::None; }, IsProbeRoute, IsReused};
+    [](const FPassQuery& Query) { return ChooseRoughSpecularRays(Query).Path != ERayPath::None; }, IsProbeRoute, IsReused, true};
 
 /// A filter that remembers longer than the cells may would undo what they know of changes.
 FDenoiseSettings GetFilter(const FFrameContext& Context)

@@ -33,7 +33,7 @@ float GetNormalError(ERTFormat Format)
 
 bool AreNormalsNative(const FHostSurface& Host)
 {
-	return Host.bOctahedral && !Host.bUnsigned && Host.bGeometricInZw && Host.NormalAxes == glm::mat3(1.0f);
+	return Host.bOctahedral && !Host.bUnsigned && !Host.bBackAlbedo && Host.bGeometricInZw && Host.NormalAxes == glm::mat3(1.0f);
 }
 
 /// The precision that the host's textures leave to rays.
@@ -61,6 +61,7 @@ uint32_t MakeFlags(const FHostSurface& Host)
 	Add(Host.bMotionDistance || Host.bNativeMotion, HOST_MOTION_DISTANCE);
 	Add(Host.bMotionPartial && !Host.bNativeMotion, HOST_MOTION_PARTIAL);
 	Add(Host.bUnrealMaterial, HOST_MATERIAL_UNREAL);
+	Add(glm::determinant(Host.NormalAxes) < 0.0f, HOST_NORMALS_MIRRORED);
 	return Flags;
 }
 
@@ -75,7 +76,6 @@ FHostSurfaceConstants MakeConstants(const FHostSurface& Host)
 	C.MotionOffset = Host.bNativeMotion ? glm::vec2(0) : Host.MotionOffset;
 	C.NormalX = Host.NormalAxes[0];
 	C.NormalY = Host.NormalAxes[1];
-	C.NormalZ = Host.NormalAxes[2];
 	return C;
 }
 
@@ -83,11 +83,12 @@ void AddPass(FFrameContext& Context, const FHostSurface& Host, IRTPipeline* Pipe
 {
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("HostSurface", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Texture : {Host.Depth, Host.Normals, Host.GeometricNormals, Host.Motion, Host.BaseColor, Host.Material})
+		for (const FGraphTexture Texture :
+		    {Host.Depth, Host.Normals, Host.GeometricNormals, Host.Motion, Host.BaseColor, Host.Material, Host.BackAlbedo})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
-		for (const FGraphTexture Texture : {Out.Depth, Out.Normals, Out.Motion, Out.BaseColor, Out.Material})
+		for (const FGraphTexture Texture : {Out.Depth, Out.Normals, Out.Motion, Out.BaseColor, Out.Material, Out.BackAlbedo})
 		{
 			if (Texture.IsValid()) { Builder.WriteIfRead(Texture, ERTAccess::StorageWrite); }
 		}
@@ -101,11 +102,13 @@ void AddPass(FFrameContext& Context, const FHostSurface& Host, IRTPipeline* Pipe
 			C.Motion = GetSampledIndex(Pass, Host.Motion);
 			C.BaseColor = GetSampledIndex(Pass, Host.BaseColor);
 			C.Material = GetSampledIndex(Pass, Host.Material);
+			C.BackAlbedo = GetSampledIndex(Pass, Host.BackAlbedo);
 			C.OutDepth = GetStorageIndex(Pass, Out.Depth);
 			C.OutNormals = GetStorageIndex(Pass, Out.Normals);
 			C.OutMotion = GetStorageIndex(Pass, Out.Motion);
 			C.OutBaseColor = GetStorageIndex(Pass, Out.BaseColor);
 			C.OutMaterial = GetStorageIndex(Pass, Out.Material);
+			C.OutBackAlbedo = GetStorageIndex(Pass, Out.BackAlbedo);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, HOST_SURFACE_GROUP_SIZE);
 		};
 	});
@@ -135,11 +138,15 @@ FGBuffer AddHostSurfacePass(FFrameContext& Context, const FHostSurface& Host)
 	const bool bMaterial = Host.BaseColor.IsValid() && Host.Material.IsValid();
 	if (bMaterial)
 	{
+		if (Context.Facts.bBackPixels)
+		{
+			Out.BackAlbedo = Choose(Host.BackAlbedo, true, ERTFormat::RGBA16_FLOAT, "HostBackAlbedo", Converted.BackAlbedo);
+		}
 		Out.BaseColor = Choose(Host.BaseColor, !Host.bUnrealMaterial, ERTFormat::RGBA16_FLOAT, "HostBaseColor", Converted.BaseColor);
 		Out.Material = Choose(Host.Material, !Host.bUnrealMaterial, ERTFormat::RGBA8_UNORM, "HostMaterial", Converted.Material);
 	}
-	const bool bAny =
-	    Converted.Depth.IsValid() || Converted.Normals.IsValid() || Converted.Motion.IsValid() || Converted.BaseColor.IsValid();
+	const bool bAny = Converted.Depth.IsValid() || Converted.Normals.IsValid() || Converted.Motion.IsValid() ||
+	                  Converted.BaseColor.IsValid() || Converted.BackAlbedo.IsValid();
 	IRTPipeline* const Pipeline = bAny ? RequireCompute(Context, MakeHostSurfaceSource()) : nullptr;
 	if (bAny && Pipeline == nullptr) { return {}; }
 	if (bAny) { AddPass(Context, Host, Pipeline, Converted); }

@@ -28,7 +28,8 @@ FShaderSource MakeResolveSource(const FSceneFacts& Facts, EPixelRate Rate, bool 
 }
 } // namespace
 
-void AddSharedPathShaders(const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute)
+void AddSharedPathShaders(
+    const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute)
 {
 	InOutDefines.emplace_back(SharedPathsDefine, "1");
 	OutCompute.push_back(MakeResolveSource(Facts, Rate, bSecondLobe));

@@ -17,7 +17,8 @@ struct FSharedPaths
 
 constexpr const char* SharedPathsDefine = "SHARED_PATHS";
 /// Adds what the shader of the paths is compiled with, and lists the shaders of the other passes. bSecondLobe: see FBruteForcePass::Second.
-void AddSharedPathShaders(const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute);
+void AddSharedPathShaders(
+    const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute);
 
 /// Threads: of the first launch. Invalid: shaders are being compiled.
 FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, uint64_t Threads);

@@ -55,8 +55,9 @@ FAppearanceChange CompareAppearance(const FMaterialData& Old, const FMaterialDat
 	double Reflected = GetChange(glm::vec3(Old.BaseColor), glm::vec3(New.BaseColor)) + GetMapChange(Old, New, TEXTURE_BASE_COLOR);
 	if (Old.DiffuseTransmission > 0.0f || New.DiffuseTransmission > 0.0f)
 	{
-		Reflected += GetChange(Old.DiffuseTransmissionColor * Old.DiffuseTransmission, New.DiffuseTransmissionColor * New.DiffuseTransmission) +
-		             GetMapChange(Old, New, TEXTURE_DIFFUSE_TRANSMISSION) + GetMapChange(Old, New, TEXTURE_DIFFUSE_TRANSMISSION_COLOR);
+		Reflected +=
+		    GetChange(Old.DiffuseTransmissionColor * Old.DiffuseTransmission, New.DiffuseTransmissionColor * New.DiffuseTransmission) +
+		    GetMapChange(Old, New, TEXTURE_DIFFUSE_TRANSMISSION) + GetMapChange(Old, New, TEXTURE_DIFFUSE_TRANSMISSION_COLOR);
 	}
 	return {std::min(Reflected + std::abs(double(New.Metallic) - double(Old.Metallic)), 1.0), 0.0};
 }

@@ -52,9 +52,9 @@ struct FSceneFacts
 	/// shines through, if it has a program.
 	bool bOwnShapes = false;
 	bool bEmissive = false;
-	bool bTransmissive = false;  ///< light shines through some material
+	bool bTransmissive = false;        ///< light shines through some material
 	bool bDiffuseTransmission = false; ///< some material scatters light through to its other side
-	bool bLightEmission = false; ///< some of it lights otherwise than it looks: FMaterialData::LightEmissive
+	bool bLightEmission = false;       ///< some of it lights otherwise than it looks: FMaterialData::LightEmissive
 	bool bSun = false;
 	bool bSky = false;
 	bool bSkyMap = false;     ///< it is a texture

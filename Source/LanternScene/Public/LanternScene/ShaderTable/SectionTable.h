@@ -28,11 +28,11 @@ using FSectionRangeId = uint32_t;
 /// What of a range's sections counts for the whole.
 struct FRangeFlags
 {
-	bool bMasked = false;        ///< alpha tests run on some part
-	bool bDoubleSided = false;   ///< all materials are double-sided
-	bool bEmissive = false;      ///< some material emits
-	bool bLightEmission = false; ///< some material lights otherwise than it looks: FMaterialData::LightEmissive
-	bool bTransmissive = false;  ///< light shines through some material
+	bool bMasked = false;              ///< alpha tests run on some part
+	bool bDoubleSided = false;         ///< all materials are double-sided
+	bool bEmissive = false;            ///< some material emits
+	bool bLightEmission = false;       ///< some material lights otherwise than it looks: FMaterialData::LightEmissive
+	bool bTransmissive = false;        ///< light shines through some material
 	bool bDiffuseTransmission = false; ///< some material scatters light through to its other side
 	friend bool operator==(const FRangeFlags&, const FRangeFlags&) = default;
 };
