@@ -106,19 +106,32 @@ void SmoothRadiance(FRadianceGrid Grid, FRadianceQuery Query, float U, inout FCe
 #endif
 
 #ifdef HAS_DIFFUSE_TRANSMISSION
-// As LookUpReflected, of the light that has arrived on the other side of a hit.
-bool LookUpBack(FRadianceGrid Grid, FMaterialHit Hit, FBrdf Brdf, FRadianceQuery Query, FRadianceVoter Voter, vec3 LocalV, float U, out vec3 OutLight)
+FRadianceQuery TurnQuery(FRadianceQuery Query)
 {
-	FCellLight Light;
 	Query.Position += BackStep;
 	Query.GeometricNormal = -Query.GeometricNormal;
 	Query.Normal = -Query.Normal;
+	return Query;
+}
+
+// Returns what leaves on V's side of a cell's light that has arrived on the other.
+vec3 ShowFromBehind(FCellLight Light, FBrdf Brdf, vec3 LocalV) { return Light.Irradiance * GetBackAlbedo(Brdf) * LayerTransmittance(Brdf, LocalV.z); }
+
+// As LookUpReflected, of the light that has arrived on the other side of a hit. Query: of the hit's own side, which there is one vote with.
+bool LookUpBack(FRadianceGrid Grid, FBrdf Brdf, FRadianceQuery Query, inout FRadianceVoter Voter, vec3 LocalV, float U, out vec3 OutLight)
+{
+	const FRadianceVoter Nobody = FRadianceVoter(FAddress(0), 0u, 0u);
+	bool bVotes = (Voter.Hash & 0x10000u) != 0u;
+	FCellLight Light;
 	OutLight = vec3(0.0);
-	if (!LookUpRadiance(Grid, Query, Voter, U, Light)) { return false; }
+	Query = TurnQuery(Query);
+	bool bFound = LookUpRadiance(Grid, Query, bVotes ? Voter : Nobody, U, Light);
+	if (bVotes) { Voter = Nobody; }
+	if (!bFound) { return false; }
 #ifdef SMOOTH_RADIANCE
 	SmoothRadiance(Grid, Query, U, Light);
 #endif
-	OutLight = Light.Irradiance * GetBackAlbedo(Brdf) * LayerTransmittance(Brdf, LocalV.z);
+	OutLight = ShowFromBehind(Light, Brdf, LocalV);
 	return true;
 }
 #endif
@@ -140,21 +153,13 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 Loca
 	RadianceVoter.Note = FAddress(0);
 	FCellLight Light;
 #ifdef HAS_DIFFUSE_TRANSMISSION
-	if (HasBack(Brdf))
+	// Both sides of a leaf have one cell, and votes must come from either. Other surfaces have one for each.
+	bool bBack = HasBack(Brdf), bOneCell = bBack && Query.bFoliage;
+	if (bOneCell && (Voter.Hash & 0x10000u) != 0u) { Query = TurnQuery(Query); }
+	if (bBack && !bOneCell && !LookUpBack(Grid, Brdf, Query, Voter, LocalV, U, OutLight) && !bLast)
 	{
-		// There is one vote for both sides.
-		bool bBackVotes = (Voter.Hash & 0x10000u) != 0u;
-		FRadianceVoter Silent = FRadianceVoter(FAddress(0), 0u, 0u);
-		vec3 Back;
-		bool bBack = LookUpBack(Grid, Hit, Brdf, Query, bBackVotes ? Voter : Silent, LocalV, U, Back);
-		if (bBackVotes) { Voter = Silent; }
-		if (!bBack && !bLast)
-		{
-			// The other side asks for its cell all the same.
-			LookUpRadiance(Grid, Query, Voter, U, Light);
-			return false;
-		}
-		OutLight = Back;
+		LookUpRadiance(Grid, Query, Voter, U, Light); // the other side asks for its cell all the same
+		return false;
 	}
 #endif
 	if (!LookUpRadiance(Grid, Query, Voter, U, Light)) { return false; }
@@ -162,6 +167,9 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 Loca
 	SmoothRadiance(Grid, Query, U, Light);
 #endif
 	OutLight += ReflectCellLight(Light, MakeFrontLobes(Brdf), Hit.Roughness, LocalV, Light.From * Basis);
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	if (bOneCell) { OutLight += ShowFromBehind(Light, Brdf, LocalV); }
+#endif
 	return true;
 }
 

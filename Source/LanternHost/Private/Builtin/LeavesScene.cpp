@@ -145,7 +145,7 @@ void AddLantern(FSceneBuilder& Builder, const FScattering& Scattering)
 	const glm::vec2 Profile[] = {{0.07f, -0.2f}, {0.15f, -0.15f}, {0.18f, -0.05f}, {0.18f, 0.05f}, {0.15f, 0.15f}, {0.07f, 0.2f}};
 	Shade.AddLathe(Profile, 40);
 	Builder.AddNode("lantern", Builder.AddMesh(Shade), {-0.95f, 1.55f, -1.1f});
-	Builder.AddPointLight("candle", {-0.95f, 1.5f, -1.1f}, glm::vec3(2.4f, 1.7f, 0.9f), 8.0f);
+	Builder.AddPointLight("candle", {-0.95f, 1.5f, -1.1f}, glm::vec3(0.6f, 0.42f, 0.22f), 8.0f);
 }
 } // namespace
 
