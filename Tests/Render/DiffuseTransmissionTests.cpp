@@ -227,6 +227,26 @@ TEST_F(FDiffuseTransmissionTest, WholePictureAsTheReference)
 	}
 }
 
+/// Edited while it is drawn, a material looks as if it had been loaded so.
+TEST_F(FDiffuseTransmissionTest, MaterialMayChange)
+{
+	FHostMaterial Paper = MakePaper();
+	Paper.DiffuseTransmission = 0.0f;
+	ASSERT_NO_FATAL_FAILURE(LoadSheet(Paper, glm::vec3(0)));
+	SetSun(0.0, 4.0f, {0.3, -0.4, 1.0});
+	EXPECT_EQ(MeanGreen(RenderLighting(LookAtSheet())), 0.0) << "the sun is behind";
+	FRTScene& Scene = GetScene().GetScene();
+	FMaterialData Data = Scene.GetMaterials()[0];
+	Data.DiffuseTransmission = Share;
+	Data.DiffuseTransmissionColor = BackColor;
+	Scene.SetMaterial(0, Data);
+	const double Expected = 4.0 * glm::normalize(glm::dvec3(0.3, -0.4, 1.0)).z * Share * BackColor.g / Pi;
+	EXPECT_NEAR(MeanGreen(RenderLighting(LookAtSheet())), Expected, 0.01 * Expected);
+	Data.DiffuseTransmission = 0.0f;
+	Scene.SetMaterial(0, Data);
+	EXPECT_EQ(MeanGreen(RenderLighting(LookAtSheet())), 0.0);
+}
+
 /// Off, a sheet looks as if its material said nothing of what scatters through.
 TEST_F(FDiffuseTransmissionTest, VariableTurnsItOff)
 {

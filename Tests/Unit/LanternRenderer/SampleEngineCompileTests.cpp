@@ -216,6 +216,28 @@ TEST_F(FSampleEngineCompileTest, ATogglesShadersDoNotBlankThePicture)
 	LetGo();
 }
 
+// The first material that scatters light through brings a target of its own.
+TEST_F(FSampleEngineCompileTest, AMaterialThatBringsATargetDoesNotBlankThePicture)
+{
+	ASSERT_TRUE(FramesUntilReady());
+	Mock().HoldCompiles("GBuffer");
+	FRTScene& Scene = Engine->GetScene().GetScene();
+	FMaterialData Leaf = Scene.GetMaterials()[0];
+	Leaf.DiffuseTransmission = 0.5f;
+	Leaf.DiffuseTransmissionColor = glm::vec3(1);
+	Scene.SetMaterial(0, Leaf);
+	for (int I = 0; I < 3; ++I)
+	{
+		ASSERT_NO_FATAL_FAILURE(Frame());
+		EXPECT_EQ(GetDrawn().size(), 3u) << "without the target";
+		EXPECT_FALSE(Renderer().AreShadersReady());
+	}
+	LetGo();
+	ASSERT_TRUE(FramesUntilReady());
+	ASSERT_NO_FATAL_FAILURE(Frame());
+	EXPECT_EQ(GetDrawn().size(), 3u);
+}
+
 TEST_F(FSampleEngineCompileTest, WithoutMemoryForAPipelineFramesGoOnUntilThereIsSome)
 {
 	for (const char* Name : {"GBuffer", "GBufferMasked", CheckerName})
