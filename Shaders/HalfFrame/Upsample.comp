@@ -1,6 +1,6 @@
 // Gives each pixel what the pixels of the half frame around it have found (Kopf et al. 2007, "Joint Bilateral Upsampling"). Those on its plane
 // count alone, and the more, the more alike their shading normals are.
-// SECOND_LOBE: two signals. NO_PLANES: planted fault (r.RT.Debug.HalfFrame.Planes).
+// SECOND_LOBE: two signals. BACK_PIXELS: see GBuffer.glsl. NO_PLANES: planted fault (r.RT.Debug.HalfFrame.Planes).
 #version 460
 #include "../Shared/HalfFrameTypes.h"
 #include "HalfPixel.glsl"
@@ -29,6 +29,7 @@ float GetLikeness(FViewConstants View, FGBufferPoint Point, FGBufferPoint Site)
 #ifdef NO_PLANES
 	return 1.0;
 #else
+	if (Point.bBack != Site.bBack) { return 0.0; } // the light of one side is not that of two
 	float Facing = dot(Point.Ng, Site.Ng);
 	vec3 To = Site.Relative - Point.Relative;
 	float Slack = 0.5 * PixelHeight(View, dot(View.CameraForward, Point.Relative));

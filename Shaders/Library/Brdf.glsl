@@ -7,6 +7,11 @@
 
 #include "Math.glsl"
 
+// Hits or pixels may show light from behind.
+#if defined(HAS_DIFFUSE_TRANSMISSION) || defined(BACK_PIXELS)
+#define HAS_BACK_LOBE
+#endif
+
 struct FBrdf
 {
 	vec3 BaseColor;
@@ -15,16 +20,16 @@ struct FBrdf
 	float F0;       // reflectance of the dielectric at normal incidence
 	float Specular; // weight of the dielectric layer
 	float Diffuse;  // weight of the Lambert base: 1, less what leaves on the other side, or 0 for the specular lobe alone
-#ifdef HAS_DIFFUSE_TRANSMISSION
+#ifdef HAS_BACK_LOBE
 	vec3 BackAlbedo; // of the base, for light that arrives on the other side and leaves on V's: a Lambert lobe about −z
 #endif
 };
 
-// HAS_DIFFUSE_TRANSMISSION: some surfaces scatter light through to their other side (KHR_materials_diffuse_transmission). NO_BACK_LOBE: planted
-// fault (r.RT.Debug.DiffuseTransmission): what leaves there is lost.
+// HAS_DIFFUSE_TRANSMISSION: some surfaces that rays meet scatter light through to their other side. NO_BACK_LOBE: planted fault
+// (r.RT.Debug.DiffuseTransmission): what leaves there is lost.
 vec3 GetBackAlbedo(FBrdf Brdf)
 {
-#if defined(HAS_DIFFUSE_TRANSMISSION) && !defined(NO_BACK_LOBE)
+#if defined(HAS_BACK_LOBE) && !defined(NO_BACK_LOBE)
 	return Brdf.BackAlbedo;
 #else
 	return vec3(0.0);
@@ -70,7 +75,7 @@ FBrdf MakeLambert(vec3 Albedo)
 	Brdf.BaseColor = Albedo;
 	Brdf.Metallic = Brdf.F0 = Brdf.Specular = 0.0;
 	Brdf.Alpha = Brdf.Diffuse = 1.0;
-#ifdef HAS_DIFFUSE_TRANSMISSION
+#ifdef HAS_BACK_LOBE
 	Brdf.BackAlbedo = vec3(0.0);
 #endif
 	return Brdf;
@@ -82,7 +87,7 @@ FBrdf MakeWhiteLambert() { return MakeLambert(vec3(1.0)); }
 // What leaves on the side of its arrival alone.
 FBrdf MakeFrontLobes(FBrdf Brdf)
 {
-#ifdef HAS_DIFFUSE_TRANSMISSION
+#ifdef HAS_BACK_LOBE
 	Brdf.BackAlbedo = vec3(0.0);
 #endif
 	return Brdf;
@@ -119,8 +124,8 @@ float SmithVisibility(float NdotL, float NdotV, float Alpha)
 	return 0.5 / max(L + V, 1.0e-20);
 }
 
-// The share of light that the dielectric layer lets in and out again towards the viewer, if it arrives evenly from all directions: the mean of
-// 1 − F(V·H) over a cosine-weighted hemisphere of L. The mean of (1 − V·H)⁵ depends on n·v alone and is fitted by a cubic (largest error
+// The share of light that the dielectric layer lets in and out again towards the viewer, if it arrives evenly from all directions. That is the
+// mean of 1 − F(V·H) over a cosine-weighted hemisphere of L. The mean of (1 − V·H)⁵ depends on n·v alone and is fitted by a cubic (largest error
 // 7e-5).
 float LayerTransmittance(FBrdf Brdf, float NdotV)
 {

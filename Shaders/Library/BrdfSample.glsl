@@ -12,10 +12,17 @@ struct FGatherSide
 	vec3 Weight; // of what is gathered there, of the light over DiffuseReflectance
 };
 
+// Returns the chance that a side is the back. The front's paths may light a specular lobe as well, however little its diffuse lobe shows.
+float BackChance(FBrdf Brdf)
+{
+	const float Most = 0.75;
+	return min(BackProbability(Brdf), Most);
+}
+
 // U: in [0, 1).
 FGatherSide ChooseSide(FBrdf Brdf, float U)
 {
-	float Chance = BackProbability(Brdf);
+	float Chance = BackChance(Brdf);
 	bool bBack = U < Chance;
 	return FGatherSide(bBack, ShareOfSide(Brdf, bBack) / (bBack ? Chance : 1.0 - Chance));
 }

@@ -27,12 +27,16 @@ vec2 MarkSure(vec2 OctNormal, bool bSure)
 	return vec2(float(bSure ? X | 1 : X) / OctSteps, OctNormal.y);
 }
 // The lowest bit of the second coordinate says which pixels show light from behind. Without BACK_PIXELS it says nothing.
+// The ends mark nothing, so that normals along axes stay exact.
+bool IsBackCode(int Y) { return (Y & 1) != 0 && abs(Y) < int(OctSteps); }
 vec2 MarkBack(vec2 OctNormal, bool bBack)
 {
-	int Y = clamp(int(round(OctNormal.y * OctSteps)), -32766, 32766) & ~1;
-	return vec2(OctNormal.x, float(bBack ? Y | 1 : Y) / OctSteps);
+	int Y = int(round(OctNormal.y * OctSteps));
+	if (IsBackCode(Y) == bBack) { return OctNormal; }
+	Y -= abs(Y) == int(OctSteps) ? 2 * sign(Y) : Y > 0 ? 1 : -1;
+	return vec2(OctNormal.x, float(Y) / OctSteps);
 }
-bool IsBack(vec2 OctNormal) { return (int(round(OctNormal.y * OctSteps)) & 1) != 0; }
+bool IsBack(vec2 OctNormal) { return IsBackCode(int(round(OctNormal.y * OctSteps))); }
 bool IsSure(vec2 OctNormal) { return (int(round(OctNormal.x * OctSteps)) & 1) != 0; }
 
 float LoadDepth(uint Texture, ivec2 Pixel) { return texelFetch(Textures[Texture], Pixel, 0).x; }
@@ -56,17 +60,20 @@ FGBufferPoint LoadGBufferPoint(FViewConstants View, uint Normals, ivec2 Pixel, f
 	return Point;
 }
 
+// Returns the normal that tells the sides of a surface.
+vec3 SideNormal(FGBufferPoint Point) { return Point.bSure ? Point.Ng : Point.BentN; }
+
 // Turns a surface that shows light from behind to face Direction.
 void FaceDirection(inout FGBufferPoint Point, vec3 Direction)
 {
-	if (!Point.bBack || dot(Point.Ng, Direction) >= 0.0) { return; }
+	if (!Point.bBack || dot(SideNormal(Point), Direction) >= 0.0) { return; }
 	Point.Ng = -Point.Ng;
 	Point.N = -Point.N;
 	Point.BentN = -Point.BentN;
 }
 
 // Whether the pixel sends light from Direction to the viewer, if its lobes do: of light from behind, both normals must have it there.
-bool MayShow(FGBufferPoint Point, vec3 Direction, float LocalZ) { return !Point.bBack || dot(Point.Ng, Direction) * LocalZ > 0.0; }
+bool MayShow(FGBufferPoint Point, vec3 Direction, float LocalZ) { return !Point.bBack || dot(SideNormal(Point), Direction) * LocalZ > 0.0; }
 
 // Returns the origin of rays that leave the surface of a pixel, on the side that Ng faces.
 vec3 RasterRayOrigin(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point)

@@ -34,8 +34,10 @@ float BrightnessOfEmitters(FViewConstants View, uvec2 Pixel)
 	const float Peak = 0.25, Unknown = 1.0e6; // Peak: of the specular lobe over the diffuse one, times the square of alpha
 	if (View.Exposure <= 0.0) { return Unknown; }
 	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], ivec2(Pixel), 0), texelFetch(Textures[Push.Material], ivec2(Pixel), 0));
+	AddBackLobe(Push.BackAlbedo, ivec2(Pixel), Brdf);
 	float Alpha = max(Brdf.Alpha, 2.0 * MinAlpha), Brightest = MaxComponent(Brdf.BaseColor);
-	float Reflected = EmitterBound / Pi * (Brightest + Peak * mix(Brdf.F0, Brightest, Brdf.Metallic) / (Alpha * Alpha));
+	float Diffuse = max(Brightest, MaxComponent(GetBackAlbedo(Brdf)));
+	float Reflected = EmitterBound / Pi * (Diffuse + Peak * mix(Brdf.F0, Brightest, Brdf.Metallic) / (Alpha * Alpha));
 	return clamp(Reflected * View.Exposure / DimEmitter(Push.Emitters), 1.0e-6, Unknown);
 }
 

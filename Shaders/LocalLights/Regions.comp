@@ -23,6 +23,9 @@ shared uint LowBits[3], HighBits[3]; // corners of the box of all surfaces, in a
 shared uint PointKeys[BoxPoints];    // 0: there is no surface; else the lowest bits are the pixel's number
 shared vec3 SamplerP[RegionSamplers], SamplerN[RegionSamplers];
 shared bool bSampler[RegionSamplers];
+#ifdef BACK_PIXELS
+shared bool bSamplerBack[RegionSamplers]; // see FGBufferPoint::bBack
+#endif
 shared float Totals[RegionSamplers + 1u][REGION_THREADS]; // over the run of each thread: of samplers, and of bounds
 shared float RunSums[REGION_THREADS];
 shared uint RunCounts[REGION_THREADS];
@@ -84,6 +87,19 @@ void LoadPoint(FSceneConstants Scene, FViewConstants View, uint Point)
 	bSampler[Quarter] = true;
 	SamplerP[Quarter] = Surface.P;
 	SamplerN[Quarter] = Surface.Surface.BentN;
+#ifdef BACK_PIXELS
+	bSamplerBack[Quarter] = Surface.Surface.bBack;
+#endif
+}
+
+// Whether light on the other side of a sampler's surface counts as well.
+bool ShowsBack(uint S)
+{
+#ifdef BACK_PIXELS
+	return bSamplerBack[S];
+#else
+	return false;
+#endif
 }
 
 // Returns what a light may bring: to each sampler, and at most. All are 0 if it does not reach the region.
@@ -96,6 +112,7 @@ float[RegionSamplers + 1u] MeasureLight(FSceneConstants Scene, uint Light, vec3 
 	for (uint S = 0u; S < RegionSamplers; ++S)
 	{
 		float Estimate = bReaches && bSampler[S] ? EstimateCluster(Cluster, SamplerP[S], SamplerN[S], 0.0) : 0.0;
+		if (bReaches && bSampler[S] && ShowsBack(S)) { Estimate = max(Estimate, EstimateCluster(Cluster, SamplerP[S], -SamplerN[S], 0.0)); }
 		Brings[S] = min(Estimate, 1.0e30);
 	}
 	Brings[RegionSamplers] = bReaches ? clamp(BoundCluster(Cluster, Low, High), 1.0e-30, 1.0e30) : 0.0;
@@ -106,6 +123,7 @@ float[RegionSamplers + 1u] MeasureLight(FSceneConstants Scene, uint Light, vec3 
 	for (uint S = 0u; S < RegionSamplers; ++S)
 	{
 		float Estimate = bReaches && bSampler[S] ? EstimateLight(Scene, Data, SamplerP[S], SamplerN[S]) : 0.0;
+		if (bReaches && bSampler[S] && ShowsBack(S)) { Estimate = max(Estimate, EstimateLight(Scene, Data, SamplerP[S], -SamplerN[S])); }
 		Brings[S] = min(Estimate, 1.0e30);
 	}
 	Brings[RegionSamplers] = bReaches ? clamp(BoundLight(Scene, Data, Low, High), 1.0e-30, 1.0e30) : 0.0;

@@ -221,6 +221,9 @@ uint EstimateEntry(FSceneConstants Scene, uint Entry, vec3 Low, vec3 High, out f
 		[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S)
 		{
 			float Estimate = SamplerKeys[S] != 0u ? EstimateCluster(Cluster, SamplerP[S], SamplerN[S], SamplerReach[S]) : 0.0;
+#ifdef BACK_PIXELS
+			if (SamplerKeys[S] != 0u && bSamplerBack[S]) { Estimate = max(Estimate, EstimateCluster(Cluster, SamplerP[S], -SamplerN[S], SamplerReach[S])); }
+#endif
 			Packed |= PackEstimate(Estimate) << (8u * S);
 		}
 		return Packed;

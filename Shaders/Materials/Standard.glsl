@@ -20,7 +20,7 @@ struct FMaterialSurface
 	float F0;        // reflectance of the dielectric at normal incidence
 	float Specular;  // weight of the dielectric layer
 	float Transmission; // share of what the layer lets in that shines through. Counts only where FMaterialData::Transmission is not 0
-	// Of the diffuse layer's light, what leaves the surface on its other side. Count only where FMaterialData::DiffuseTransmission is not 0.
+	// What leaves the surface on its other side of the diffuse layer's light. Counts only where FMaterialData::DiffuseTransmission is not 0.
 	float DiffuseTransmission;     // share
 	vec3 DiffuseTransmissionColor; // factor of what leaves there, as BaseColor is of the rest
 };

@@ -67,7 +67,7 @@ FPathSide ChoosePathSide(FGBufferPoint Point, inout FRandom Random)
 	if (!bGathersBack) { return Side; }
 	FGatherSide Chosen = ChooseSide(GatheredBrdf, NextRandom4(Random).x);
 	Side.Weight = Chosen.Weight;
-	Side.FrontWeight = Chosen.bBack ? 0.0 : 1.0 / (1.0 - BackProbability(GatheredBrdf));
+	Side.FrontWeight = Chosen.bBack ? 0.0 : 1.0 / (1.0 - BackChance(GatheredBrdf));
 	if (Chosen.bBack)
 	{
 		FaceDirection(Side.Point, -Point.Ng);

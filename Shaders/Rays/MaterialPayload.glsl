@@ -1,6 +1,6 @@
 // The payload of material rays: 36 bytes, and 8 more with each of HAS_TRANSMISSION and HAS_DIFFUSE_TRANSMISSION, hold all that shading needs,
-// and who was hit. The quantisation is finer than the accuracy that the reference must reach. Base colours are unorm16, since a closed room of albedo 0.9 multiplies their error by ten. Emission
-// is fp16 (relative error ≤ 0.05 %), directions are octahedral.
+// and who was hit. The quantisation is finer than the accuracy that the reference must reach. Base colours are unorm16, since a closed room of
+// albedo 0.9 multiplies their error by ten. Emission is fp16 (relative error ≤ 0.05 %), directions are octahedral.
 //   W0 distance                      W4 base colour b 15 | foliage 1 | roughness 12 | channels 4, the lower ones
 //   W1 shading normal, octahedral    W5 flags 2 | sqrt(F0) 12 | specular 8 | metallic 10
 //   W2 geometric normal, octahedral  W6 emission rg fp16

@@ -35,6 +35,18 @@ vec3 StartOfRay(vec3 P, vec3 Direction, vec3 Ng)
 #endif
 }
 
+// Aims a ray that leaves the other side of the vertex at the point that Direction and Distance lead to from P. Length: where the ray stops.
+void AimFrom(vec3 Start, vec3 P, float Distance, inout vec3 Direction, inout float Length)
+{
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	if (Start == P || Distance >= LightInfinity) { return; }
+	vec3 To = P + Direction * Distance - Start;
+	float FromStart = max(length(To), 1.0e-6);
+	Direction = To / FromStart;
+	Length = max(Length + FromStart - Distance, 0.0);
+#endif
+}
+
 // Returns the density of light sampling of the sky, over that of a cosine: each side has the chance of its lobe.
 float SkyChance(FBrdf Brdf, float LocalZ)
 {
@@ -164,8 +176,10 @@ vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, ve
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
 	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
 	bool bCastsShadow = (Light.Flags & LIGHT_CASTS_SHADOW) != 0u;
-	vec3 Start = StartOfRay(P, Sample.Direction, Ng);
-	if (bCastsShadow) { BrdfCos *= LightThrough(Scene, LocalCasters(bCharacter), Start, Sample.Direction, LightRayLength(Sample, P, Scene.ObjectReach)); }
+	vec3 Start = StartOfRay(P, Sample.Direction, Ng), Direction = Sample.Direction;
+	float Length = LightRayLength(Sample, P, Scene.ObjectReach);
+	AimFrom(Start, P, Sample.Distance, Direction, Length);
+	if (bCastsShadow) { BrdfCos *= LightThrough(Scene, LocalCasters(bCharacter), Start, Direction, Length); }
 	return BrdfCos * Sample.Irradiance * (TotalWeight / ChosenWeight);
 }
 
@@ -182,9 +196,9 @@ vec3 ShownShare(FBrdf Brdf, vec3 V, vec3 L, uint Shows)
 {
 	if (Shows != SHOWS_MIRRORED) { return vec3(Shows == SHOWS_ALL ? 1.0 : 0.0); }
 	float OfRays = EmissionOfRays(sqrt(Brdf.Alpha), 1.0);
-	if (OfRays <= 0.0 || Brdf.Diffuse <= 0.0) { return vec3(OfRays); }
+	if (OfRays <= 0.0 || (Brdf.Diffuse <= 0.0 && !HasBack(Brdf))) { return vec3(OfRays); }
 	vec3 Whole = EvaluateBrdfCos(Brdf, V, L);
-	Brdf.Diffuse = 0.0;
+	Brdf = MakeSpecularLobe(Brdf);
 	return OfRays * clamp(EvaluateBrdfCos(Brdf, V, L) / max(Whole, vec3(1.0e-30)), vec3(0.0), vec3(1.0));
 }
 
@@ -263,7 +277,10 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 	// The shadow ray stops short of the emitter, the more so the more grazing it arrives.
 	float Margin = PositionError(Point, Scene.ObjectReach, Distance) / max(CosAtLight, 0.1);
 	if (MaxComponent(Emission) <= 0.0) { return vec3(0.0); }
-	BrdfCos *= LightThrough(Scene, Casters, StartOfRay(P, ToLight, Ng), ToLight, max(Distance - Margin, 0.0));
+	vec3 Start = StartOfRay(P, ToLight, Ng), Direction = ToLight;
+	float Length = max(Distance - Margin, 0.0);
+	AimFrom(Start, P, Distance, Direction, Length);
+	BrdfCos *= LightThrough(Scene, Casters, Start, Direction, Length);
 	if (BrdfCos == vec3(0.0)) { return vec3(0.0); }
 	float ToSolidAngle = DistanceSquared / CosAtLight;
 	float Pdf = Chance * 2.0 / Doubled * ToSolidAngle;

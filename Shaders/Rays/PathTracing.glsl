@@ -128,7 +128,7 @@ FBrdf MakeBrdf(FMaterialHit Hit)
 }
 
 #ifdef HAS_DIFFUSE_TRANSMISSION
-// Of a path's first vertex, where its ray has arrived at an offset from the surface already. The thread may set it before.
+// What BackStep has beside the offset of a hit, at a first vertex that lies off its surface already. The thread may set it before.
 vec3 FirstBackStep = vec3(0.0);
 
 void SetBackStep(FSceneConstants Scene, vec3 P, vec3 Ng, float Distance)

@@ -117,7 +117,8 @@ FRadianceQuery TurnQuery(FRadianceQuery Query)
 // Returns what leaves on V's side of a cell's light that has arrived on the other.
 vec3 ShowFromBehind(FCellLight Light, FBrdf Brdf, vec3 LocalV) { return Light.Irradiance * GetBackAlbedo(Brdf) * LayerTransmittance(Brdf, LocalV.z); }
 
-// As LookUpReflected, of the light that has arrived on the other side of a hit. Query: of the hit's own side, which there is one vote with.
+// As LookUpReflected, of the light that has arrived on the other side of a hit. Query: of the hit's own side. Voter: one of the two sides votes;
+// gets who votes for the other one.
 bool LookUpBack(FRadianceGrid Grid, FBrdf Brdf, FRadianceQuery Query, inout FRadianceVoter Voter, vec3 LocalV, float U, out vec3 OutLight)
 {
 	const FRadianceVoter Nobody = FRadianceVoter(FAddress(0), 0u, 0u);
@@ -153,7 +154,7 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 Loca
 	RadianceVoter.Note = FAddress(0);
 	FCellLight Light;
 #ifdef HAS_DIFFUSE_TRANSMISSION
-	// Both sides of a leaf have one cell, and votes must come from either. Other surfaces have one for each.
+	// A leaf has one cell for its two sides, and votes must come from either. Other surfaces have a cell for each.
 	bool bBack = HasBack(Brdf), bOneCell = bBack && Query.bFoliage;
 	if (bOneCell && (Voter.Hash & 0x10000u) != 0u) { Query = TurnQuery(Query); }
 	if (bBack && !bOneCell && !LookUpBack(Grid, Brdf, Query, Voter, LocalV, U, OutLight) && !bLast)

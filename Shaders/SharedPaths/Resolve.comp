@@ -4,6 +4,7 @@
 // CHECKERBOARD, QUARTER: see Rate.glsl. SECOND_LOBE: specular lobes are lit as well.
 // NO_REUSE_COSINE: planted fault (r.RT.Debug.GI.ReuseCosine).
 #version 460
+#include "../Library/BrdfSample.glsl"
 #include "../Library/GBuffer.glsl"
 #include "../Library/Rate.glsl"
 #include "../Library/Rgbe.glsl"
@@ -74,7 +75,7 @@ void LoadSites(FViewConstants View)
 		SiteFaces[I] = PackOct(Point.Ng);
 		SitePixels[I] = SphereOf(ivec2(Pixel)) | (Pixel.y << 16u) | Pixel.x;
 #ifdef BACK_PIXELS
-		SiteBacks[I] = Point.bBack && Push.BackAlbedo != NO_TEXTURE ? BackProbability(LoadSides(ivec2(Pixel))) : 0.0;
+		SiteBacks[I] = Point.bBack && Push.BackAlbedo != NO_TEXTURE ? BackChance(LoadSides(ivec2(Pixel))) : 0.0;
 #endif
 		SitePaths[I] = FSharedPathRef(Push.Shared).Data[Thread.y * Threads.x + Thread.x];
 	}
@@ -117,6 +118,9 @@ FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
 	const float Deviation = 0.75; // of a pixel's kernel, in pitches
 	float Slack = 0.25 * PixelHeight(View, dot(View.CameraForward, Point.Relative)), Sum = 0.0, SumOfOthers = 0.0;
 	uint Sphere = SphereOf(ivec2(gl_GlobalInvocationID.xy));
+#ifdef BACK_PIXELS
+	bool bBack = Point.bBack && Push.BackAlbedo != NO_TEXTURE;
+#endif
 	FSites Found;
 	float Others[Around];
 	for (int I = 0; I < Around; ++I)
@@ -128,6 +132,9 @@ FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
 		float Kernel = exp(-dot(Step, Step) / (2.0 * Deviation * Deviation));
 		vec3 To = SitePlaces[Site] - Point.Relative;
 		bool bPlane = dot(Point.Ng, UnpackOct(SiteFaces[Site])) >= 0.9 && abs(dot(Point.Ng, To)) <= 0.1 * length(To) + Slack;
+#ifdef BACK_PIXELS
+		bPlane = bPlane && (SiteBacks[Site] > 0.0) == bBack; // what one side gathers is not what two do
+#endif
 		Found.Weights[I] = bPlane ? Kernel : 0.0;
 		Others[I] = Kernel;
 		Sum += Found.Weights[I];

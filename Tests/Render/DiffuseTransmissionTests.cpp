@@ -155,6 +155,49 @@ TEST_F(FDiffuseTransmissionTest, LampsAsTheReference)
 	ExpectUnbiased("lamps on screens, by a walk", ESignal::LocalDiffuse, LookAtScreens(), 64, 32, 1, 0.015);
 }
 
+// An emitter parallel to a sheet: a ray that started behind the sheet and was as long as one from its front would end in the emitter.
+TEST_F(FDiffuseTransmissionTest, PanelShinesFromBehind)
+{
+	FTestScene Scene("panel");
+	Scene.AddNode(Scene.AddMesh({MakeWall(Scene.AddMaterial(MakePaper()), 4.0f, 0.0f)}));
+	Scene.AddNode(Scene.AddMesh({MakeWall(Scene.AddLambert(glm::vec3(0), glm::vec3(5)), 0.5f, -0.5f)}));
+	ASSERT_TRUE(Load(std::move(Scene.Scene)));
+	SetSun(0.0, 0.0f);
+	SetSky(glm::vec3(0));
+	SetVariable("r.RT.Lights.Denoise", "0");
+	const FView View = LookAt({0, 0, 4}, {0, 0, 0}, glm::radians(0.5f), 32, 32);
+	// A square of side 1 at half its side, over its middle: of Hottel, four quarters of A / (1 + A²)^½ atan(B / (1 + A²)^½), twice.
+	const double Root = std::sqrt(2.0), FormFactor = 4.0 * (1.0 / (2.0 * Pi)) * 2.0 * (1.0 / Root) * std::atan(1.0 / Root);
+	const double Expected = 5.0 * FormFactor * Share * BackColor.g;
+	ExpectClosedForm("panel behind paper", EstimateMean(View, 256, 1), Expected, 0.01);
+	SetIndirect(1, 1);
+	const FEstimate Frames = EstimateFrames(ESignal::LocalDiffuse, View, 64);
+	const double Signal = 5.0 * FormFactor * Share * BackColor.g / ((1.0 - Share) * FrontColor.g + Share * BackColor.g);
+	ExpectClosedForm("panel behind paper, frames", Frames, Signal, 0.015);
+	const FEstimate Reference = EstimateSignal(ESignal::LocalDiffuse, View, 256, 1);
+	ExpectClosedForm("panel behind paper, reference of the signal", Reference, Signal, 0.015);
+}
+
+/// What sends all of its diffuse light to the other side still has a specular lobe.
+TEST_F(FDiffuseTransmissionTest, SpecularLobeOfTheFrontKeepsItsLight)
+{
+	FHostMaterial Silk = MakePaper(1.0f);
+	Silk.DiffuseTransmission = 1.0f;
+	ASSERT_NO_FATAL_FAILURE(LoadSheet(Silk, glm::vec3(1)));
+	SetVariable("r.RT.GI", "3");
+	SetVariable("r.RT.GI.Denoise", "0");
+	for (const char* const Reuse : {"0", "1"})
+	{
+		SetVariable("r.RT.GI.Reuse", Reuse);
+		for (const ESignal Signal : {ESignal::RoughSpecular, ESignal::DiffuseGI})
+		{
+			const double Mean = MeanGreen(RenderSignal(Signal, LookAtSheet(), 64));
+			PrintFigure(fmt::format("{} of silk under a sky of 1, reuse {}: {:.4f}", GetSignalInfo(Signal).Name, Reuse, Mean));
+			EXPECT_NEAR(Mean, 1.0, Signal == ESignal::DiffuseGI ? 0.01 : 0.03) << "fits of the lobe's albedo are off by up to 2 %";
+		}
+	}
+}
+
 TEST_F(FDiffuseTransmissionTest, IndirectLightAsTheReference)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadScreens());

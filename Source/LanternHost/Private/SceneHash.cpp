@@ -115,7 +115,10 @@ public:
 			AddAll(V.DiffuseTransmission);
 			AddFloats(V.DiffuseTransmissionColor);
 		}
-		for (const FHostTextureSlot& Slot : V.Slots) { Add(Slot); }
+		for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot)
+		{
+			if (Slot < TEXTURE_DIFFUSE_TRANSMISSION || V.DiffuseTransmission > 0.0f) { Add(V.Slots[Slot]); }
+		}
 		Hash.AddText(V.Program);
 	}
 	void Add(const FHostSection& V) { AddAll(V.FirstIndex, V.IndexCount, V.Material); }

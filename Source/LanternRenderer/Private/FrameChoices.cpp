@@ -80,7 +80,7 @@ FSceneFacts AddFrameFacts(FSceneFacts Facts, const FFrameFeatures& Features, con
 	Facts.bHostShadow = Features.bHostShadow;
 	const bool bScatters = CVarDiffuseTransmission.GetOnRenderThread(), bInScene = bScatters && Facts.bDiffuseTransmission;
 	Facts.bBackPixels = Features.BackAlbedo == EBackAlbedo::OfScene ? bInScene : bScatters && Features.BackAlbedo == EBackAlbedo::Always;
-	Facts.bDiffuseTransmission = bInScene || Facts.bBackPixels;
+	Facts.bDiffuseTransmission = bInScene;
 	Facts.bSkyInPlace = Facts.bSkyProgram && (Features.bReference || !IsSkyBaked());
 	Facts.bLightMask = Requests.bLightMask && Facts.Lights > 0;
 	Facts.bMaskAlone = Facts.bLightMask && !IsAnyMadeBesideLightMask(Requests);

@@ -99,9 +99,9 @@ void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
 
 void AddDiffuseTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
 {
-	if (!Facts.bDiffuseTransmission) { return; }
-	InOut.emplace_back("HAS_DIFFUSE_TRANSMISSION", "1");
-	if (Facts.bBackPixels) { InOut.emplace_back("BACK_PIXELS", "1"); }
+	if (!Facts.bDiffuseTransmission && !Facts.bBackPixels) { return; }
+	if (Facts.bDiffuseTransmission) { InOut.emplace_back("HAS_DIFFUSE_TRANSMISSION", "1"); }
+	if (Facts.bBackPixels) { InOut.emplace_back(BackPixelsDefine, "1"); }
 	if (!CVarBackLobe.GetOnRenderThread()) { InOut.emplace_back("NO_BACK_LOBE", "1"); }
 }
 

@@ -77,7 +77,9 @@ bool IsRayTracingEnabled();
 /// Adds HAS_LIGHT_EMISSION if some material lights otherwise than it looks. Shaders that read emission of hits need it.
 void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
 
-/// Adds HAS_DIFFUSE_TRANSMISSION if some material scatters light through. Shaders that read hits, or what pixels reflect, need it.
+inline constexpr const char* BackPixelsDefine = "BACK_PIXELS";
+/// Adds HAS_DIFFUSE_TRANSMISSION if some material scatters light through, for shaders that read hits. Adds BACK_PIXELS if the G-buffer says
+/// which pixels do, for those that light pixels.
 void AddDiffuseTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
 /// Adds HAS_TRANSMISSION if light shines through some material. Shaders that read hits, or what any-hit shaders decide, need it.
 void AddTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);

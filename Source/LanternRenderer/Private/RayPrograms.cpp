@@ -61,9 +61,9 @@ FRayType MakeMaterialRay(const FSceneFacts& Facts, bool bStandard)
 	AddTransmissionDefine(Facts, Type.Miss.Defines);
 	AddTransmissionDefine(Facts, Type.ClosestHit->Defines);
 	AddTransmissionDefine(Facts, Type.MaskedAnyHit.Defines);
-	for (FShaderDefines* const Defines : {&Type.Miss.Defines, &Type.ClosestHit->Defines, &Type.MaskedAnyHit.Defines})
+	for (FShaderDefines* const Defines : {&Type.Miss.Defines, &Type.ClosestHit->Defines})
 	{
-		AddDiffuseTransmissionDefine(Facts, *Defines);
+		if (Facts.bDiffuseTransmission) { Defines->emplace_back("HAS_DIFFUSE_TRANSMISSION", "1"); }
 	}
 	Type.PayloadBytes = MaterialPayloadBytes + (Facts.bTransmissive ? TransmissionBytes : 0);
 	Type.PayloadBytes += Facts.bDiffuseTransmission ? DiffuseTransmissionBytes : 0;

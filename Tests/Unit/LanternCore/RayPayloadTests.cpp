@@ -80,16 +80,28 @@ FShaderSource MakeSource(const std::string& Path, bool bTransmission = false)
 	return Source;
 }
 
-std::multiset<uint32_t> MeasurePayloads(const std::string& Path, bool bTransmission = false)
+std::multiset<uint32_t> MeasurePayloads(const std::string& Path, bool bTransmission = false, bool bDiffuseTransmission = false)
 {
 	FShaderCompiler Compiler(FShaderCompilerDesc{{LANTERN_SOURCE_DIR "/Shaders"}, ""});
 	FShaderBinary Binary;
-	const FRTStatus Status = Compiler.Compile(MakeSource(Path, bTransmission), Binary);
+	FShaderSource Source = MakeSource(Path, bTransmission);
+	if (bDiffuseTransmission) { Source.Defines.emplace_back("HAS_DIFFUSE_TRANSMISSION", "1"); }
+	const FRTStatus Status = Compiler.Compile(Source, Binary);
 	EXPECT_TRUE(Status) << Path << ": " << Status.Message;
 	return FSpirvTypes(Binary.Words).GetPayloads();
 }
 
 using FSizes = std::multiset<uint32_t>;
+
+// RayPrograms.cpp states these sizes.
+TEST(RayPayload, LightFromBehindTakesEightBytes)
+{
+	for (const char* const Path : {"Rays/Material.rmiss", "Rays/Material.rchit"})
+	{
+		EXPECT_EQ(MeasurePayloads(Path, false, true), FSizes{44}) << Path;
+		EXPECT_EQ(MeasurePayloads(Path, true, true), FSizes{52}) << Path;
+	}
+}
 
 TEST(RayPayload, ShadowRayIsFourBytes)
 {

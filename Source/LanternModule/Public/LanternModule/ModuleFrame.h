@@ -201,12 +201,14 @@ struct FRTModuleFrame
 	IRTTexture* Channels = nullptr;
 	/// R8_UNORM: FRTModuleToon::Number of each pixel's object over 255; 0: none. May be null: no toon style has an effect.
 	IRTTexture* ToonNumbers = nullptr;
-	/// RGBA8_SRGB: what shines diffusely through each pixel's surface, as leaves and paper do. May be null.
+	/// What shines diffusely through each pixel's surface, as leaves and paper do. RGBA8_SRGB or BGRA8_SRGB, or linear values from 0 to 1 in
+	/// RGBA8_UNORM, BGRA8_UNORM or RGBA16_FLOAT. May be null.
 	/// - rgb: albedo for light that arrives on the side away from the camera; 0: none shines through.
-	/// - a: share that the diffuse albedo of BaseColor has lost to it. 0 keeps that whole, as for subsurface colours that artists add.
+	/// - a, linear: share that the diffuse albedo of BaseColor has lost to it. 0 keeps that whole, as for subsurface colours that artists add.
 	///
-	/// Needs BaseColor and Material. Sun visibility is then that of the lit side. Diffuse signals hold the light of both sides: the
-	/// engine multiplies them by BaseColor (1 - metalness)(1 - a) + rgb, as FGBuffer's diffuse albedo.
+	/// Needs BaseColor and Material. The visibility of the sun is then that of the side that it shines on. Diffuse signals hold the light of
+	/// both sides. The engine multiplies them by the sum of both albedos: rgb + BaseColor (1 - metalness)(1 - a). Whether the texture is
+	/// there decides about shaders: passes are left out until these are compiled (IRTModuleRenderer::Precache).
 	IRTTexture* BackAlbedo = nullptr;
 	ERTAccess DepthAccess = ERTAccess::ShaderRead;
 	ERTAccess NormalsAccess = ERTAccess::ShaderRead;

@@ -106,7 +106,8 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	Paths.RadianceCells = Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, Path) : nullptr;
 	if (First.Has(SharedPathsDefine))
 	{
-		Paths.Shared = MakeSharedPaths(Context, Rate, First.Has(SecondLobe), uint64_t(Paths.Width) * Paths.Height);
+		const uint64_t Threads = uint64_t(Paths.Width) * Paths.Height;
+		Paths.Shared = MakeSharedPaths(Context, Rate, First.Has(SecondLobe), First.Has(BackPixelsDefine), Threads);
 	}
 	if (First.Has(GuidedPathsDefine)) { Paths.Guide = MakePathGuide(Context, Rate, uint64_t(Paths.Width) * Paths.Height); }
 	if (Second)
@@ -124,10 +125,7 @@ void TraceFirst(FPassContext& Pass, const FFrameContext& Frame, const FPaths& Pa
 }
 
 /// Whether pixels gather light from behind as well.
-bool GathersBack(const FBruteForcePass& Settings, const FGBuffer& GBuffer)
-{
-	return Settings.bBothSides && GBuffer.BackAlbedo.IsValid();
-}
+bool GathersBack(const FBruteForcePass& Settings, const FGBuffer& GBuffer) { return Settings.bBothSides && GBuffer.BackAlbedo.IsValid(); }
 
 bool NeedsSurface(const FBruteForcePass& Settings, const FGBuffer& GBuffer, const FPaths& Paths)
 {

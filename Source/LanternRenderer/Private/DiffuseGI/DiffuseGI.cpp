@@ -169,7 +169,7 @@ FPassRays ChooseDiffuseGIRays(const FPassQuery& Query)
 	FPassRays Rays = ChooseBruteForceRays(BruteForce, Query);
 	if (Rays.bRadianceCells) { ListRadianceCellsViewShaders(Rays.Compute); }
 	if (Rays.Path != ERayPath::None) { ListToonShaders(Query.Facts, false, Rays.Compute); }
-	if (Rays.Path != ERayPath::None && IsHalfWanted()) { ListHalfFrameShaders(IsPair(Query), Rays.Compute); }
+	if (Rays.Path != ERayPath::None && IsHalfWanted()) { ListHalfFrameShaders(Query.Facts, IsPair(Query), Rays.Compute); }
 	return Rays;
 }
 

@@ -16,9 +16,11 @@ TRTConsoleVariable<bool> CVarPlanes("r.RT.Debug.HalfFrame.Planes", true,
 
 FShaderSource MakeReduceSource() { return MakeComputeSource("HalfFrame/Reduce.comp"); }
 
-FShaderSource MakeUpsampleSource(bool bPair)
+FShaderSource MakeUpsampleSource(FSceneFacts Facts, bool bPair)
 {
 	FShaderDefines Defines;
+	Facts.bDiffuseTransmission = false; // it reads no hits
+	AddDiffuseTransmissionDefine(Facts, Defines);
 	if (bPair) { Defines.emplace_back("SECOND_LOBE", "1"); }
 	if (!CVarPlanes.GetOnRenderThread()) { Defines.emplace_back("NO_PLANES", "1"); }
 	return MakeComputeSource("HalfFrame/Upsample.comp", std::move(Defines));
@@ -143,7 +145,7 @@ FView MakeHalfView(const FView& View)
 bool AreHalfFrameShadersReady(const FFrameContext& Context, bool bPair)
 {
 	const bool bReduce = RequireCompute(Context, MakeReduceSource()) != nullptr; // both are asked for at once
-	return RequireCompute(Context, MakeUpsampleSource(bPair)) && bReduce;
+	return RequireCompute(Context, MakeUpsampleSource(Context.Facts, bPair)) && bReduce;
 }
 
 FHalfFrame* RequireHalfFrame(FFrameContext& Context, const FGBuffer& GBuffer)
@@ -175,7 +177,7 @@ FLobes AddUpsample(FFrameContext& Context, const FGBuffer& GBuffer, const char* 
 	const std::array<FGraphTexture, 2> Inputs = {
 	    Lobes.Diffuse.IsValid() ? Lobes.Diffuse : Lobes.Specular, Lobes.Diffuse.IsValid() ? Lobes.Specular : FGraphTexture()};
 	if (!Inputs[0].IsValid()) { return Lobes; }
-	IRTPipeline* const Pipeline = RequireCompute(Context, MakeUpsampleSource(Inputs[1].IsValid()));
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeUpsampleSource(Context.Facts, Inputs[1].IsValid()));
 	if (!Pipeline) { return {}; }
 	std::array<FGraphTexture, 2> Outputs;
 	for (size_t I = 0; I < 2; ++I)
@@ -215,10 +217,10 @@ FLobes AddUpsample(FFrameContext& Context, const FGBuffer& GBuffer, const char* 
 	return Lobes.Diffuse.IsValid() ? FLobes{Outputs[0], Outputs[1]} : FLobes{{}, Outputs[0]};
 }
 
-void ListHalfFrameShaders(bool bPair, std::vector<FShaderSource>& Out)
+void ListHalfFrameShaders(const FSceneFacts& Facts, bool bPair, std::vector<FShaderSource>& Out)
 {
 	Out.push_back(MakeReduceSource());
-	Out.push_back(MakeUpsampleSource(bPair));
+	Out.push_back(MakeUpsampleSource(Facts, bPair));
 }
 
 } // namespace Lantern

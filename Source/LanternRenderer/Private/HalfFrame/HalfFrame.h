@@ -37,6 +37,6 @@ void WriteHalfConstants(const FHalfFrame& Half, uint32_t FrameIndex);
 FLobes AddUpsample(FFrameContext& Context, const FGBuffer& GBuffer, const char* Name, const FLobes& Lobes);
 
 /// Lists the compute shaders of both. bPair: AddUpsample gets two signals.
-void ListHalfFrameShaders(bool bPair, std::vector<FShaderSource>& Out);
+void ListHalfFrameShaders(const FSceneFacts& Facts, bool bPair, std::vector<FShaderSource>& Out);
 
 } // namespace Lantern

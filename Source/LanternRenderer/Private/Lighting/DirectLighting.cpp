@@ -35,7 +35,7 @@ FShaderSource MakeLightingSource(FSceneFacts Facts)
 	Facts.bAreaLights &= bLights;
 	Facts.bLightProfiles &= bLights;
 	Facts.bSky &= CVarSkyAmbient.GetOnRenderThread();
-	Facts.bMasked = Facts.bSkyInPlace = false; // nothing of it reaches lighting
+	Facts.bMasked = Facts.bSkyInPlace = Facts.bDiffuseTransmission = false; // nothing of it reaches lighting
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (Facts.bSkyProgram) { Defines.emplace_back("SKY_IN_PLACE", "1"); } // a camera sees more than a map's texels
 	if (bLights) { AddEmitterDefines(Facts, Defines); }

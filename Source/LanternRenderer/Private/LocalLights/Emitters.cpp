@@ -52,14 +52,14 @@ void ListEmitterShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Ou
 {
 	if (!HasEmitters(Facts)) { return; }
 	Out.push_back(MakeClustersSource());
-	if (HasManyClusters(Facts)) { Out.push_back(MakeEmitterRegionsSource()); }
+	if (HasManyClusters(Facts)) { Out.push_back(MakeEmitterRegionsSource(Facts)); }
 }
 
 bool AreEmittersReady(FFrameContext& Context)
 {
 	if (!HasEmitters(Context.Facts)) { return true; }
 	if (!RequireCompute(Context, MakeClustersSource())) { return false; }
-	return !HasManyClusters(Context.Scene.GetFacts()) || RequireCompute(Context, MakeEmitterRegionsSource());
+	return !HasManyClusters(Context.Scene.GetFacts()) || RequireCompute(Context, MakeEmitterRegionsSource(Context.Facts));
 }
 
 FGraphBuffer AddEmitterClusters(FFrameContext& Context, const FGBuffer& GBuffer)
@@ -85,7 +85,7 @@ FGraphBuffer AddEmitterClusters(FFrameContext& Context, const FGBuffer& GBuffer)
 			DispatchMany(Pass, Pipeline, C, DivideUp(Count, EMITTER_GROUP_SIZE));
 		};
 	});
-	if (Regions > 0) { AddEmitterRegions(Context, GBuffer, RequireCompute(Context, MakeEmitterRegionsSource()), Clusters); }
+	if (Regions > 0) { AddEmitterRegions(Context, GBuffer, RequireCompute(Context, MakeEmitterRegionsSource(Context.Facts)), Clusters); }
 	return Clusters;
 }
 

@@ -15,6 +15,7 @@ FShaderSource MakeLightRegionsSource(const FSceneFacts& Facts)
 	Used.Lights = Facts.Lights;
 	Used.bAreaLights = Facts.bAreaLights;
 	Used.bLightProfiles = Facts.bLightProfiles;
+	Used.bBackPixels = Facts.bBackPixels;
 	return MakeComputeSource("LocalLights/Regions.comp", MakeFactDefines(Used));
 }
 
@@ -58,7 +59,13 @@ FGraphBuffer AddLightRegions(FFrameContext& Context, const FGBuffer& GBuffer, IR
 	return Regions;
 }
 
-FShaderSource MakeEmitterRegionsSource() { return MakeComputeSource("LocalLights/Regions.comp", {{"EMITTERS", "1"}}); }
+FShaderSource MakeEmitterRegionsSource(FSceneFacts Facts)
+{
+	FShaderDefines Defines = {{"EMITTERS", "1"}};
+	Facts.bDiffuseTransmission = false; // it reads no hits
+	AddDiffuseTransmissionDefine(Facts, Defines);
+	return MakeComputeSource("LocalLights/Regions.comp", std::move(Defines));
+}
 
 void AddEmitterRegions(FFrameContext& Context, const FGBuffer& GBuffer, IRTPipeline* Pipeline, FGraphBuffer Clusters)
 {

@@ -212,7 +212,7 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	ListLocalRequestShaders(Query.Facts, Exact, Rays.Compute);
 	ListLightMaskShaders(Query.Facts, Rays.Compute);
 	ListLampViewShaders(Rays.Compute);
-	if (IsHalfWanted(Query.Facts)) { ListHalfFrameShaders(IsPair(Query.Requests), Rays.Compute); }
+	if (IsHalfWanted(Query.Facts)) { ListHalfFrameShaders(Query.Facts, IsPair(Query.Requests), Rays.Compute); }
 	if (Denoise.IsEnabled() && AreChangesFollowed(Query.Facts))
 	{
 		ListLampChangeShaders(AreLampsChosen(Query.Facts), Query.Facts, MakeLocalDefines(Query.Facts, Exact), Rays.Compute);

@@ -265,7 +265,7 @@ bool IsGuided(const FSceneFacts& Facts, uint32_t Exact)
 FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 {
 	const bool bMany = MayChooseLights(Facts, Exact);
-	Facts.bSun = Facts.bSky = Facts.bSkyInPlace = Facts.bMasked = false; // nothing of it reaches these shaders
+	Facts.bSun = Facts.bSky = Facts.bSkyInPlace = Facts.bMasked = Facts.bDiffuseTransmission = false; // nothing of it reaches these shaders
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (bMany) { Defines.emplace_back("MANY_LIGHTS", "1"); }
 	AddRateDefine(GetLightRate(), Defines);

@@ -17,9 +17,11 @@ TRTConsoleVariable<float> CVarNear("r.RT.GI.Reuse.Near", 16.0f,
 TRTConsoleVariable<bool> CVarReuseCosine("r.RT.Debug.GI.ReuseCosine", true,
     "Planted fault. If off, paths light each pixel around as they light the one that has drawn them, whatever its normal.");
 
-FShaderSource MakeResolveSource(const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe)
+FShaderSource MakeResolveSource(EPixelRate Rate, bool bSecondLobe, bool bBothSides)
 {
 	FShaderDefines Defines;
+	FSceneFacts Facts; // it reads no hits
+	Facts.bBackPixels = bBothSides;
 	AddDiffuseTransmissionDefine(Facts, Defines);
 	AddRateDefine(Rate, Defines);
 	if (bSecondLobe) { Defines.emplace_back("SECOND_LOBE", "1"); }
@@ -32,13 +34,13 @@ void AddSharedPathShaders(
     const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute)
 {
 	InOutDefines.emplace_back(SharedPathsDefine, "1");
-	OutCompute.push_back(MakeResolveSource(Facts, Rate, bSecondLobe));
+	OutCompute.push_back(MakeResolveSource(Rate, bSecondLobe, Facts.bBackPixels));
 }
 
-FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, uint64_t Threads)
+FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, bool bBothSides, uint64_t Threads)
 {
 	FSharedPaths Shared;
-	Shared.Resolve = RequireCompute(Context, MakeResolveSource(Context.Facts, Rate, bSecondLobe));
+	Shared.Resolve = RequireCompute(Context, MakeResolveSource(Rate, bSecondLobe, bBothSides));
 	if (Shared.Resolve) { Shared.Fresh = Context.Graph.CreateBuffer({Threads * sizeof(FSharedPath)}, "SharedPaths"); }
 	return Shared;
 }

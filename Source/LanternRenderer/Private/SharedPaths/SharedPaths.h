@@ -21,7 +21,8 @@ void AddSharedPathShaders(
     const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute);
 
 /// Threads: of the first launch. Invalid: shaders are being compiled.
-FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, uint64_t Threads);
+/// bBothSides: the first launch has BackPixelsDefine.
+FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, bool bBothSides, uint64_t Threads);
 /// Pixels up to which what a path meets is near, and lights the path's own pixel alone.
 float GetNearPixels(const FFrameContext& Context);
 /// Adds the pass that lights pixels by what the paths have found. Second: of the second lobe; invalid: there is none.
