@@ -162,13 +162,17 @@ EPicture ExpectPicture(const std::string& Variable)
 TEST_F(FSceneChangeTest, TogglesBetweenFrames)
 {
 	ASSERT_TRUE(Load("courtyard"));
-	FView View = MakeView(96, 54);
+	FView View = MakeView(64, 36);
 	View.bCut = true; // a frame that accumulates shows those before it, too
 	const auto Draw = [&] {
 		GetEngine().SetFrameIndex(0);
 		return RenderLighting(View);
 	};
-	FConsoleVariables::Get().ResetAll(); // to what it is after each toggle, without what the fixture sets
+	const auto Reset = [] { // without what the fixture sets
+		FConsoleVariables::Get().ResetAll();
+		SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "60000"); // most of the time of small pictures
+	};
+	Reset();
 	const FImage Before = Draw();
 	int Flipped = 0;
 	for (const FRTConsoleVariable* Variable : FConsoleVariables::Get().GetAll())
@@ -190,12 +194,13 @@ TEST_F(FSceneChangeTest, TogglesBetweenFrames)
 			const double Difference = MaxDifference(Changed, Before);
 			if (Expected == EPicture::Equal) { EXPECT_EQ(Difference, 0.0) << Variable->GetName() << "=" << Value; }
 			if (Expected == EPicture::Other) { EXPECT_GT(Difference, 0.01) << Variable->GetName() << "=" << Value; }
-			FConsoleVariables::Get().ResetAll();
-			const FImage After = Draw();
-			EXPECT_EQ(MaxDifference(After, Before), 0.0)
-			    << "after " << Variable->GetName() << "=" << Value << ", " << FractionDiffering(After, Before, 0.0) << " of the pixels";
 			++Flipped;
 		}
+		if (Values.empty()) { continue; }
+		Reset();
+		const FImage After = Draw();
+		EXPECT_EQ(MaxDifference(After, Before), 0.0)
+		    << "after " << Variable->GetName() << ", " << FractionDiffering(After, Before, 0.0) << " of the pixels";
 	}
 	EXPECT_GE(Flipped, 15);
 }
