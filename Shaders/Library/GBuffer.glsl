@@ -32,9 +32,8 @@ bool IsBackCode(int Y) { return (Y & 1) != 0 && abs(Y) < int(OctSteps); }
 vec2 MarkBack(vec2 OctNormal, bool bBack)
 {
 	int Y = int(round(OctNormal.y * OctSteps));
-	if (IsBackCode(Y) == bBack) { return OctNormal; }
-	Y -= abs(Y) == int(OctSteps) ? 2 * sign(Y) : Y > 0 ? 1 : -1;
-	return vec2(OctNormal.x, float(Y) / OctSteps);
+	if (IsBackCode(Y) != bBack) { Y -= abs(Y) == int(OctSteps) ? 2 * sign(Y) : Y > 0 ? 1 : -1; }
+	return vec2(OctNormal.x, float(Y) / OctSteps); // a whole number of steps, which no store rounds elsewhere
 }
 bool IsBack(vec2 OctNormal) { return IsBackCode(int(round(OctNormal.y * OctSteps))); }
 bool IsSure(vec2 OctNormal) { return (int(round(OctNormal.x * OctSteps)) & 1) != 0; }

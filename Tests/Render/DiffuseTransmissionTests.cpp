@@ -121,6 +121,28 @@ TEST_F(FDiffuseTransmissionTest, SunShinesFromBehind)
 	}
 }
 
+/// Whatever its normal, what lets light through is marked, and shows the sun behind it.
+TEST_F(FDiffuseTransmissionTest, EveryNormalIsMarked)
+{
+	constexpr int Side = 24;
+	FTestScene Scene("facets");
+	const int32_t Paper = Scene.AddMaterial(MakePaper());
+	std::vector<FTestScene::FQuad> Facets;
+	for (int I = 0; I < Side * Side; ++I)
+	{
+		const glm::vec3 Center(0.1f * float(I % Side - Side / 2), 0.1f * float(I / Side - Side / 2), 0);
+		const glm::vec3 Normal = glm::normalize(glm::vec3(std::sin(1.3f * float(I)), std::cos(2.1f * float(I)), 1.6f));
+		const glm::vec3 X = 0.03f * glm::normalize(glm::cross(glm::vec3(0, 1, 0), Normal)), Y = glm::cross(Normal, X);
+		Facets.push_back({Paper, {Center - X - Y, Center + X - Y, Center + X + Y, Center - X + Y}});
+	}
+	Scene.AddNode(Scene.AddMesh(Facets));
+	ASSERT_TRUE(Load(std::move(Scene.Scene)));
+	SetSun(0.0, 4.0f, {0, 0, 1});
+	SetVariable("r.RT.Shadow.Denoise", "0");
+	const FImage Picture = RenderSignal(ESignal::SunShadow, LookAt({0, 0, 4}, {0, 0, 0}, 0.6f, 256, 256));
+	EXPECT_EQ(std::count(Picture.Pixels.begin(), Picture.Pixels.end(), 1.0f), std::ptrdiff_t(Picture.Pixels.size()));
+}
+
 TEST_F(FDiffuseTransmissionTest, LampShinesFromBehind)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadSheet(MakePaper(), glm::vec3(0)));
