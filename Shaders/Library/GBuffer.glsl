@@ -94,7 +94,7 @@ vec3 RasterRayOrigin(FSceneConstants Scene, FViewConstants View, FGBufferPoint P
 vec3 FindBackStep(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point)
 {
 	FGBufferPoint Turned = Point;
-	FaceDirection(Turned, -Point.Ng);
+	FaceDirection(Turned, -SideNormal(Point));
 	return RasterRayOrigin(Scene, View, Turned) - RasterRayOrigin(Scene, View, Point);
 }
 

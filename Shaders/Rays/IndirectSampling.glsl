@@ -70,7 +70,7 @@ FPathSide ChoosePathSide(FGBufferPoint Point, inout FRandom Random)
 	Side.FrontWeight = Chosen.bBack ? 0.0 : 1.0 / (1.0 - BackChance(GatheredBrdf));
 	if (Chosen.bBack)
 	{
-		FaceDirection(Side.Point, -Point.Ng);
+		FaceDirection(Side.Point, -SideNormal(Point));
 		Side.V = reflect(Point.V, Point.BentN);
 	}
 #endif
