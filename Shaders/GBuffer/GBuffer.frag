@@ -62,8 +62,7 @@ void main()
 
 	bool bBack = false;
 #ifdef BACK
-	float Share = Material.DiffuseTransmission > 0.0 ? clamp(Surface.DiffuseTransmission, 0.0, 1.0) : 0.0;
-	OutBack = Share > 0.0 ? vec4(Surface.DiffuseTransmissionColor * (Share * (1.0 - Surface.Metallic)), Share) : vec4(0.0);
+	OutBack = BackOf(Material, Surface);
 	bBack = OutBack.rgb != vec3(0.0);
 #endif
 	OutNormals = vec4(OctEncode(Surface.Normal), MarkBack(OctEncode(Ng), bBack));

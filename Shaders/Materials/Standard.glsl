@@ -151,6 +151,14 @@ void EvaluateDiffuseTransmission(FMaterialData Material, FMaterialInputs Inputs,
 	}
 }
 
+// Returns the albedo of the other side (FBrdf::BackAlbedo), and in a the share that the front's base loses to it.
+vec4 BackOf(FMaterialData Material, FMaterialSurface Surface)
+{
+	if (Material.DiffuseTransmission <= 0.0) { return vec4(0.0); }
+	float Share = clamp(Surface.DiffuseTransmission, 0.0, 1.0);
+	return Share > 0.0 ? vec4(Surface.DiffuseTransmissionColor * (Share * (1.0 - Surface.Metallic)), Share) : vec4(0.0);
+}
+
 // Override: value of r.RT.Material.Override; 0: none.
 FMaterialSurface EvaluateStandard(FMaterialData Material, FMaterialInputs Inputs, uint Override)
 {

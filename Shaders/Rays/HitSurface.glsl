@@ -71,8 +71,9 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	Hit.Flags |= bSolid ? (bFront ? HIT_SOLID : HIT_SOLID | HIT_INSIDE) : 0u;
 #endif
 #ifdef HAS_DIFFUSE_TRANSMISSION
-	Hit.DiffuseTransmission = Material.DiffuseTransmission > 0.0 ? clamp(Surface.DiffuseTransmission, 0.0, 1.0) : 0.0;
-	Hit.BackAlbedo = Hit.DiffuseTransmission > 0.0 ? Surface.DiffuseTransmissionColor * (Hit.DiffuseTransmission * (1.0 - Hit.Metallic)) : vec3(0.0);
+	vec4 Back = BackOf(Material, Surface);
+	Hit.BackAlbedo = Back.rgb;
+	Hit.DiffuseTransmission = Back.a;
 #endif
 	const uint Foliage = SECTION_MASKED | SECTION_DOUBLE_SIDED;
 	if ((Section.Flags & Foliage) == Foliage) { Hit.Flags |= HIT_FOLIAGE; }

@@ -15,7 +15,7 @@ namespace
 class FBackAlbedoTest : public FFlatEngineTest
 {
 protected:
-	static constexpr double Candela = 100.0, LampDepth = 3.0;
+	static constexpr double LampDepth = 3.0;
 	// As textures of eight bits hold them, and decode them.
 	static constexpr double Code = 128.0 / 255.0, Lost = Code;
 	const double Front = std::pow((0.8 + 0.055) / 1.055, 2.4), Back = std::pow((Code + 0.055) / 1.055, 2.4);
@@ -38,36 +38,13 @@ protected:
 	/// A plate of 100 m at this height.
 	static void AddPlate(IRTModuleRenderer& Renderer, float Height)
 	{
-		constexpr float Half = 50.0f;
-		const float Positions[] = {-Half, Height, -Half, Half, Height, -Half, Half, Height, Half, -Half, Height, Half};
-		const uint32_t Indices[] = {0, 1, 2, 0, 2, 3};
-		FRTModuleMesh Mesh;
-		Mesh.Positions = Positions;
-		Mesh.VertexCount = 4;
-		Mesh.Indices = Indices;
-		Mesh.IndexCount = 6;
 		FRTModuleMaterial Black;
 		Black.bDoubleSided = true;
 		for (int Channel = 0; Channel < 3; ++Channel) { Black.BaseColor[Channel] = 0.0f; }
 		Black.Specular = 0.0f;
-		ERTMeshHandle MeshHandle = ERTMeshHandle::None;
 		ERTMaterialHandle MaterialHandle = ERTMaterialHandle::None;
-		ASSERT_OK(Renderer.AddMesh(Mesh, &MeshHandle));
 		ASSERT_OK(Renderer.AddMaterial(Black, &MaterialHandle));
-		Place(Renderer, MeshHandle, MaterialHandle, {0, 0, 0}, 1.0);
-	}
-	static void AddLights(IRTModuleRenderer& Renderer)
-	{
-		FRTModuleSun Sun;
-		Sun.Direction[0] = Sun.Direction[2] = 0.0f;
-		Sun.Direction[1] = 1.0f;
-		Sun.Irradiance = 4.0f;
-		ASSERT_OK(Renderer.SetSun(Sun));
-		FRTModuleLight Lamp;
-		Lamp.Position[1] = -LampDepth;
-		for (float& Channel : Lamp.Color) { Channel = float(Candela); }
-		ERTLightHandle Handle = ERTLightHandle::None;
-		ASSERT_OK(Renderer.AddLight(Lamp, &Handle));
+		Place(Renderer, AddSquare(Renderer, 50.0f, Height), MaterialHandle, {0, 0, 0}, 1.0);
 	}
 	/// PlateHeight: 0: there is none.
 	FSignalPicture RenderLit(float PlateHeight = 0.0f)
@@ -75,19 +52,9 @@ protected:
 		return Render(
 		    [&](IRTModuleRenderer& Renderer) {
 			if (PlateHeight != 0.0f) { AddPlate(Renderer, PlateHeight); }
-			AddLights(Renderer);
+			AddVerticalLights(Renderer, -LampDepth);
 		    },
 		    FSignalSet{ESignal::SunShadow, ESignal::LocalDiffuse});
-	}
-	/// Means of the left and of the right half, of one channel.
-	static std::pair<double, double> GetHalves(const FSignalPicture& Picture, ESignal Signal)
-	{
-		const std::vector<float>& Values = Picture.Signals.at(Signal);
-		const size_t Channels = GetSignalInfo(Signal).Channels;
-		double Sums[2] = {};
-		for (size_t I = 0; I < size_t(Size) * Size; ++I) { Sums[I % Size >= Size / 2] += double(Values[I * Channels]); }
-		constexpr double Half = double(Size) * Size / 2.0;
-		return {Sums[0] / Half, Sums[1] / Half};
 	}
 	/// What the lamp brings to the right half, over the diffuse albedo of both sides.
 	double GetExpectedLamp() const
@@ -98,7 +65,7 @@ protected:
 			for (uint32_t X = Size / 2; X < Size; ++X)
 			{
 				const double PX = 4.0 * ((X + 0.5) / Size - 0.5), PZ = 4.0 * ((Y + 0.5) / Size - 0.5);
-				Sum += Candela * LampDepth / std::pow(PX * PX + PZ * PZ + LampDepth * LampDepth, 1.5);
+				Sum += LampCandela * LampDepth / std::pow(PX * PX + PZ * PZ + LampDepth * LampDepth, 1.5);
 			}
 		}
 		const double Irradiance = Sum / (0.5 * Size * Size);

@@ -21,50 +21,17 @@ protected:
 	}
 	static void AddPlate(IRTModuleRenderer& Renderer, bool bCharacter)
 	{
-		constexpr float Half = 50.0f, Height = 5.0f;
-		const float Positions[] = {-Half, Height, -Half, Half, Height, -Half, Half, Height, Half, -Half, Height, Half};
-		const uint32_t Indices[] = {0, 1, 2, 0, 2, 3};
-		FRTModuleMesh Mesh;
-		Mesh.Positions = Positions;
-		Mesh.VertexCount = 4;
-		Mesh.Indices = Indices;
-		Mesh.IndexCount = 6;
 		FRTModuleMaterial Material;
 		Material.bDoubleSided = true;
-		ERTMeshHandle MeshHandle = ERTMeshHandle::None;
 		FRTModuleObject Object;
 		ERTMaterialHandle MaterialHandle = ERTMaterialHandle::None;
 		ERTObjectHandle Handle = ERTObjectHandle::None;
-		ASSERT_OK(Renderer.AddMesh(Mesh, &MeshHandle));
 		ASSERT_OK(Renderer.AddMaterial(Material, &MaterialHandle));
-		Object.Mesh = MeshHandle;
+		Object.Mesh = AddSquare(Renderer, 50.0f, 5.0f);
 		Object.Materials = &MaterialHandle;
 		Object.MaterialCount = 1;
 		Object.bCharacter = bCharacter;
 		ASSERT_OK(Renderer.AddObject(Object, &Handle));
-	}
-	static void AddLights(IRTModuleRenderer& Renderer)
-	{
-		FRTModuleSun Sun;
-		Sun.Direction[0] = Sun.Direction[2] = 0.0f;
-		Sun.Direction[1] = -1.0f;
-		Sun.Irradiance = 4.0f;
-		ASSERT_OK(Renderer.SetSun(Sun));
-		FRTModuleLight Lamp;
-		Lamp.Position[1] = 10.0;
-		for (float& Channel : Lamp.Color) { Channel = 100.0f; }
-		ERTLightHandle Handle = ERTLightHandle::None;
-		ASSERT_OK(Renderer.AddLight(Lamp, &Handle));
-	}
-	/// Means of the left and of the right half, of one channel.
-	static std::pair<double, double> GetHalves(const FSignalPicture& Picture, ESignal Signal)
-	{
-		const std::vector<float>& Values = Picture.Signals.at(Signal);
-		const size_t Channels = GetSignalInfo(Signal).Channels;
-		double Sums[2] = {};
-		for (size_t I = 0; I < size_t(Size) * Size; ++I) { Sums[I % Size >= Size / 2] += double(Values[I * Channels]); }
-		constexpr double Half = double(Size) * Size / 2.0;
-		return {Sums[0] / Half, Sums[1] / Half};
 	}
 	FSignalPicture RenderPlate(bool bCharacter)
 	{
@@ -73,7 +40,7 @@ protected:
 		return Render(
 		    [&](IRTModuleRenderer& Renderer) {
 			AddPlate(Renderer, bCharacter);
-			AddLights(Renderer);
+			AddVerticalLights(Renderer, 10.0);
 		    },
 		    FSignalSet{ESignal::SunShadow, ESignal::LocalDiffuse});
 	}

@@ -154,6 +154,44 @@ ERTObjectHandle FFlatEngineTest::Place(
 	return Out;
 }
 
+ERTMeshHandle FFlatEngineTest::AddSquare(IRTModuleRenderer& Renderer, float Half, float Height)
+{
+	const float Positions[] = {-Half, Height, -Half, Half, Height, -Half, Half, Height, Half, -Half, Height, Half};
+	const uint32_t Indices[] = {0, 1, 2, 0, 2, 3};
+	FRTModuleMesh Mesh;
+	Mesh.Positions = Positions;
+	Mesh.VertexCount = 4;
+	Mesh.Indices = Indices;
+	Mesh.IndexCount = 6;
+	ERTMeshHandle Out = ERTMeshHandle::None;
+	EXPECT_OK(Renderer.AddMesh(Mesh, &Out));
+	return Out;
+}
+
+void FFlatEngineTest::AddVerticalLights(IRTModuleRenderer& Renderer, double LampHeight)
+{
+	FRTModuleSun Sun;
+	Sun.Direction[0] = Sun.Direction[2] = 0.0f;
+	Sun.Direction[1] = LampHeight > 0.0 ? -1.0f : 1.0f;
+	Sun.Irradiance = 4.0f;
+	ASSERT_OK(Renderer.SetSun(Sun));
+	FRTModuleLight Lamp;
+	Lamp.Position[1] = LampHeight;
+	for (float& Channel : Lamp.Color) { Channel = float(LampCandela); }
+	ERTLightHandle Handle = ERTLightHandle::None;
+	ASSERT_OK(Renderer.AddLight(Lamp, &Handle));
+}
+
+std::pair<double, double> FFlatEngineTest::GetHalves(const FSignalPicture& Picture, ESignal Signal)
+{
+	const std::vector<float>& Values = Picture.Signals.at(Signal);
+	const size_t Channels = GetSignalInfo(Signal).Channels;
+	double Sums[2] = {};
+	for (size_t I = 0; I < size_t(Size) * Size; ++I) { Sums[I % Size >= Size / 2] += double(Values[I * Channels]); }
+	constexpr double Half = double(Size) * Size / 2.0;
+	return {Sums[0] / Half, Sums[1] / Half};
+}
+
 FRTModuleFrame FFlatEngineTest::DescribeFrame() const
 {
 	FRTModuleFrame Frame;

@@ -48,6 +48,14 @@ protected:
 	/// Adds an object of the mesh with the material.
 	static ERTObjectHandle Place(IRTModuleRenderer& Renderer, ERTMeshHandle Mesh, ERTMaterialHandle Material, glm::dvec3 At, double Scale);
 
+	/// Adds a mesh: a level square of 2 · Half metres about the axis.
+	static ERTMeshHandle AddSquare(IRTModuleRenderer& Renderer, float Half, float Height);
+	static constexpr double LampCandela = 100.0;
+	/// Adds a lamp above or below the floor's middle, and a sun of 4 lux that shines straight from its side. LampHeight: metres, not 0.
+	static void AddVerticalLights(IRTModuleRenderer& Renderer, double LampHeight);
+	/// Means of the left and of the right half, of one channel.
+	static std::pair<double, double> GetHalves(const FSignalPicture& Picture, ESignal Signal);
+
 	FRTModuleRendererDesc RendererDesc; ///< of renderers that Render makes
 	TRTRef<IRTModule> Module;
 	TRTRef<IRTDevice> Device;

@@ -88,20 +88,11 @@ protected:
 	/// A box hides part of the sky.
 	void FillWorld(IRTModuleRenderer& Renderer)
 	{
-		constexpr float Positions[] = {-1, 0, -1, 1, 0, -1, 1, 0, 1, -1, 0, 1};
-		constexpr uint32_t Indices[] = {0, 1, 2, 0, 2, 3};
-		FRTModuleMesh Mesh;
-		Mesh.Positions = Positions;
-		Mesh.VertexCount = 4;
-		Mesh.Indices = Indices;
-		Mesh.IndexCount = 6;
 		FRTModuleMaterial Desc;
 		Desc.bDoubleSided = true;
 		ERTMaterialHandle White = ERTMaterialHandle::None;
-		ERTMeshHandle Handle = ERTMeshHandle::None;
 		ASSERT_OK(Renderer.AddMaterial(Desc, &White));
-		ASSERT_OK(Renderer.AddMesh(Mesh, &Handle));
-		Place(Renderer, Handle, White, {-1.0, 0.5, 0.5}, 0.7);
+		Place(Renderer, AddSquare(Renderer, 1.0f, 0.0f), White, {-1.0, 0.5, 0.5}, 0.7);
 	}
 	FSignalPicture RenderSky(const FRTModuleSkyMap* Map, glm::vec3 Radiance = glm::vec3(0))
 	{

@@ -105,6 +105,13 @@ void AddDiffuseTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOu
 	if (!CVarBackLobe.GetOnRenderThread()) { InOut.emplace_back("NO_BACK_LOBE", "1"); }
 }
 
+void AddBackPixelsDefine(bool bBackPixels, FShaderDefines& InOut)
+{
+	FSceneFacts OfPixels;
+	OfPixels.bBackPixels = bBackPixels;
+	AddDiffuseTransmissionDefine(OfPixels, InOut);
+}
+
 void AddTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
 {
 	if (!Facts.bTransmissive) { return; }

@@ -81,6 +81,8 @@ inline constexpr const char* BackPixelsDefine = "BACK_PIXELS";
 /// Adds HAS_DIFFUSE_TRANSMISSION if some material scatters light through, for shaders that read hits. Adds BACK_PIXELS if the G-buffer says
 /// which pixels do, for those that light pixels.
 void AddDiffuseTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
+/// The same, for shaders that read no hits. bBackPixels: see FSceneFacts.
+void AddBackPixelsDefine(bool bBackPixels, FShaderDefines& InOut);
 /// Adds HAS_TRANSMISSION if light shines through some material. Shaders that read hits, or what any-hit shaders decide, need it.
 void AddTransmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
 

@@ -16,11 +16,10 @@ TRTConsoleVariable<bool> CVarPlanes("r.RT.Debug.HalfFrame.Planes", true,
 
 FShaderSource MakeReduceSource() { return MakeComputeSource("HalfFrame/Reduce.comp"); }
 
-FShaderSource MakeUpsampleSource(FSceneFacts Facts, bool bPair)
+FShaderSource MakeUpsampleSource(const FSceneFacts& Facts, bool bPair)
 {
 	FShaderDefines Defines;
-	Facts.bDiffuseTransmission = false; // it reads no hits
-	AddDiffuseTransmissionDefine(Facts, Defines);
+	AddBackPixelsDefine(Facts.bBackPixels, Defines);
 	if (bPair) { Defines.emplace_back("SECOND_LOBE", "1"); }
 	if (!CVarPlanes.GetOnRenderThread()) { Defines.emplace_back("NO_PLANES", "1"); }
 	return MakeComputeSource("HalfFrame/Upsample.comp", std::move(Defines));

@@ -59,11 +59,10 @@ FGraphBuffer AddLightRegions(FFrameContext& Context, const FGBuffer& GBuffer, IR
 	return Regions;
 }
 
-FShaderSource MakeEmitterRegionsSource(FSceneFacts Facts)
+FShaderSource MakeEmitterRegionsSource(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines = {{"EMITTERS", "1"}};
-	Facts.bDiffuseTransmission = false; // it reads no hits
-	AddDiffuseTransmissionDefine(Facts, Defines);
+	AddBackPixelsDefine(Facts.bBackPixels, Defines);
 	return MakeComputeSource("LocalLights/Regions.comp", std::move(Defines));
 }
 

@@ -16,7 +16,7 @@ FShaderSource MakeLightRegionsSource(const FSceneFacts& Facts);
 FGraphBuffer AddLightRegions(FFrameContext& Context, const FGBuffer& GBuffer, IRTPipeline* Pipeline);
 
 /// Returns the shader of the same for clusters of emissive triangles.
-FShaderSource MakeEmitterRegionsSource(FSceneFacts Facts);
+FShaderSource MakeEmitterRegionsSource(const FSceneFacts& Facts);
 /// Returns the size of FLightRegion[], bytes.
 uint64_t GetLightRegionBytes(const FFrameContext& Context);
 /// Adds the pass that lists clusters. Clusters: the buffer of AddEmitterClusters, which has room for the lists.

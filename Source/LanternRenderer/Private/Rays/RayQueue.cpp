@@ -83,7 +83,7 @@ uint32_t GetCasterRayFlags()
 void AddShadowRayDefines(const FSceneFacts& Facts, FShaderDefines& Defines)
 {
 	AddTransmissionDefine(Facts, Defines);
-	AddDiffuseTransmissionDefine(Facts, Defines);
+	AddBackPixelsDefine(Facts.bBackPixels, Defines);
 	if (Facts.bTransmissive && !CVarShares.GetOnRenderThread()) { Defines.emplace_back("NO_SHARES", "1"); }
 	if (!Facts.bCharacters) { return; }
 	Defines.emplace_back("HAS_CHARACTERS", "1");

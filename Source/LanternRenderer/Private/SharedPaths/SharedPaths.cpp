@@ -20,9 +20,7 @@ TRTConsoleVariable<bool> CVarReuseCosine("r.RT.Debug.GI.ReuseCosine", true,
 FShaderSource MakeResolveSource(EPixelRate Rate, bool bSecondLobe, bool bBothSides)
 {
 	FShaderDefines Defines;
-	FSceneFacts Facts; // it reads no hits
-	Facts.bBackPixels = bBothSides;
-	AddDiffuseTransmissionDefine(Facts, Defines);
+	AddBackPixelsDefine(bBothSides, Defines);
 	AddRateDefine(Rate, Defines);
 	if (bSecondLobe) { Defines.emplace_back("SECOND_LOBE", "1"); }
 	if (!CVarReuseCosine.GetOnRenderThread()) { Defines.emplace_back("NO_REUSE_COSINE", "1"); }

@@ -48,7 +48,7 @@ FShaderDefines JoinDefines(FShaderDefines Defines, const FShaderDefines& Others)
 FShaderSource MakeResolveSource(const FSceneFacts& Facts, const FSunRates& Rates)
 {
 	FShaderDefines Rest = JoinDefines(MakeContactDefines(), MakeHostShadowDefines(Facts));
-	AddDiffuseTransmissionDefine(Facts, Rest);
+	AddBackPixelsDefine(Facts.bBackPixels, Rest);
 	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), JoinDefines(MakeSettledDefines(Rates), Rest));
 }
 

@@ -75,7 +75,7 @@ FShaderSource MakeTilesSource(const FSceneFacts& Facts, const FSunRates& Rates)
 {
 	FShaderDefines Defines = MakeSettledDefines(Rates);
 	for (auto& Define : MakeHostShadowDefines(Facts)) { Defines.push_back(std::move(Define)); }
-	AddDiffuseTransmissionDefine(Facts, Defines);
+	AddBackPixelsDefine(Facts.bBackPixels, Defines);
 	return MakeComputeSource("Tiles/Tiles.comp", std::move(Defines));
 }
 
