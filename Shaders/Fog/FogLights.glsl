@@ -4,7 +4,7 @@
 
 #include "../Library/LightCells.glsl"
 #include "../Library/Lights.glsl"
-#include "Phase.glsl"
+#include "../Library/Phase.glsl"
 
 // Returns what a light brings to P, were it not shadowed, over the scattering coefficient. Radius: of the froxel, metres.
 vec3 ScatterLight(FSceneConstants Scene, FLightData Light, vec3 P, vec3 Direction, float Radius, float G, vec2 U, out FLightSample Sample)
@@ -14,7 +14,7 @@ vec3 ScatterLight(FSceneConstants Scene, FLightData Light, vec3 P, vec3 Directio
 	vec3 Irradiance = Sample.Irradiance;
 	// The mean of 1/d² in a ball around the light: its samples would be bright without limit.
 	if (LightType(Light) == LIGHT_POINT && Sample.Distance < Radius) { Irradiance *= 3.0 * Sample.Distance * Sample.Distance / (Radius * Radius); }
-	return Irradiance * FogPhase(dot(Sample.Direction, Direction), G);
+	return Irradiance * PhaseFunction(dot(Sample.Direction, Direction), G);
 }
 
 // Returns the share of its light that arrives.

@@ -3,7 +3,7 @@
 #version 460
 #include "../Shared/HeightFogTypes.h"
 #include "../Fog/FogAtlas.glsl"
-#include "../Fog/Phase.glsl"
+#include "../Library/Phase.glsl"
 #include "../Library/GBuffer.glsl"
 #include "../Library/SkyLight.glsl"
 
@@ -47,7 +47,7 @@ void main()
 	float End = Depth > 0.0 ? DistanceFromDepth(View, Depth) : FarAway, PerDistance = 1.0 / dot(Direction, View.CameraForward);
 	vec3 Sun = vec3(0.0), Sky = vec3(0.0);
 #ifdef HAS_SUN
-	Sun = Scene.SunColor * (Scene.SunIrradiance * FogPhase(dot(-Scene.SunDirection, Direction), Push.Phase));
+	Sun = Scene.SunColor * (Scene.SunIrradiance * PhaseFunction(dot(-Scene.SunDirection, Direction), Push.Phase));
 #endif
 #ifdef HAS_SKY
 	vec3 Up = vec3(0.0, 1.0, 0.0);

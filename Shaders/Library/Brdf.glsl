@@ -6,6 +6,9 @@
 #define LANTERN_BRDF_GLSL
 
 #include "Math.glsl"
+#ifdef HAS_SCATTERING
+#include "Phase.glsl"
+#endif
 
 // Hits or pixels may show light from behind.
 #if defined(HAS_DIFFUSE_TRANSMISSION) || defined(BACK_PIXELS)
@@ -23,7 +26,20 @@ struct FBrdf
 #ifdef HAS_BACK_LOBE
 	vec3 BackAlbedo; // of the base, for light that arrives on the other side and leaves on V's: a Lambert lobe about −z
 #endif
+#ifdef HAS_SCATTERING
+	bool bPhase; // a place within a volume, where light is scattered evenly or by Anisotropy, and no surface
+	float Anisotropy;
+#endif
 };
+
+bool IsPhase(FBrdf Brdf)
+{
+#ifdef HAS_SCATTERING
+	return Brdf.bPhase;
+#else
+	return false;
+#endif
+}
 
 // HAS_DIFFUSE_TRANSMISSION: some surfaces that rays meet scatter light through to their other side. NO_BACK_LOBE: planted fault
 // (r.RT.Debug.DiffuseTransmission): what leaves there is lost.
@@ -78,8 +94,21 @@ FBrdf MakeLambert(vec3 Albedo)
 #ifdef HAS_BACK_LOBE
 	Brdf.BackAlbedo = vec3(0.0);
 #endif
+#ifdef HAS_SCATTERING
+	Brdf.bPhase = false;
+#endif
 	return Brdf;
 }
+
+#ifdef HAS_SCATTERING
+FBrdf MakePhase(float Anisotropy)
+{
+	FBrdf Brdf = MakeLambert(vec3(0.0));
+	Brdf.bPhase = true;
+	Brdf.Anisotropy = Anisotropy;
+	return Brdf;
+}
+#endif
 
 // Makes a white Lambert surface, which reflects irradiance / π.
 FBrdf MakeWhiteLambert() { return MakeLambert(vec3(1.0)); }
@@ -152,6 +181,9 @@ void EvaluateLobes(FBrdf Brdf, vec3 V, vec3 L, out vec3 Diffuse, out vec3 Specul
 // Returns the BRDF times |n·l|, without the specular lobe of a mirror.
 vec3 EvaluateBrdfCos(FBrdf Brdf, vec3 V, vec3 L)
 {
+#ifdef HAS_SCATTERING
+	if (Brdf.bPhase) { return vec3(PhaseFunction(-dot(V, L), Brdf.Anisotropy)); }
+#endif
 	vec3 Diffuse, Specular;
 	EvaluateLobes(Brdf, V, L, Diffuse, Specular);
 	return (Diffuse + Specular) * abs(L.z);
@@ -206,6 +238,9 @@ float BackProbability(FBrdf Brdf)
 // Returns the pdf with which SampleBrdf samples L. It omits the delta of a mirror.
 float BrdfPdf(FBrdf Brdf, vec3 V, vec3 L)
 {
+#ifdef HAS_SCATTERING
+	if (Brdf.bPhase) { return PhaseFunction(-dot(V, L), Brdf.Anisotropy); }
+#endif
 	if (L.z == 0.0 || V.z <= 0.0 || (L.z < 0.0 && !HasBack(Brdf))) { return 0.0; }
 	float SpecularChance = SpecularProbability(Brdf, V), BackChance = BackProbability(Brdf);
 	float Pdf = (1.0 - SpecularChance) * (L.z < 0.0 ? BackChance : 1.0 - BackChance) * abs(L.z) / Pi;

@@ -117,7 +117,7 @@ bool LeavesSurface(FViewConstants View, FGBufferPoint Point, vec3 Direction) { r
 
 FBrdf MakeGBufferBrdf(vec4 BaseColor, vec4 Material)
 {
-	FBrdf Brdf;
+	FBrdf Brdf = MakeWhiteLambert();
 	Brdf.BaseColor = BaseColor.rgb;
 	Brdf.Metallic = BaseColor.a;
 	Brdf.Alpha = Material.x * Material.x;

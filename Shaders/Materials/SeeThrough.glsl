@@ -31,11 +31,19 @@ float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primiti
 		float Coverage = CoverageOf(Material, Inputs);
 		return Coverage < LeastSolidOpacity ? -log(1.0 - max(Coverage, 0.0)) : SolidDepth;
 	}
-	float Cosine = abs(dot(Normal, Direction)) * inversesqrt(max(dot(Normal, Normal) * dot(Direction, Direction), 1.0e-30));
+	float Side = dot(Normal, Direction);
+	float Cosine = abs(Side) * inversesqrt(max(dot(Normal, Normal) * dot(Direction, Direction), 1.0e-30));
 	float Ratio = (Material.Ior - 1.0) / (Material.Ior + 1.0), R = Material.Specular * mix(Ratio * Ratio, 1.0, SchlickWeight(Cosine));
 	if ((Material.Flags & MATERIAL_SOLID) == 0u) { R = SheetReflectance(R); }
 	float Share = EvaluateTransmission(Material, Inputs) * (1.0 - Material.Metallic) * (1.0 - R);
-	return -log(max(Share * Luminance(EvaluateBaseColor(Material, Inputs).rgb), Least));
+	float Depth = -log(max(Share * Luminance(EvaluateBaseColor(Material, Inputs).rgb), Least));
+	if ((Material.Flags & MATERIAL_SOLID) != 0u)
+	{
+		// See StraightTransmittance. A transform that mirrors swaps sides, which a ray that passes the whole volume does not see.
+		float Widened = 2.0 * log(max(Material.Ior, 1.0));
+		Depth += Side > 0.0 ? Widened : -Widened;
+	}
+	return Depth;
 }
 
 #endif

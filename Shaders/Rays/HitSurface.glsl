@@ -67,7 +67,7 @@ FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMateri
 	Hit.Transmission = bBlended ? 1.0 - clamp(Surface.Opacity, 0.0, 1.0) : bTransmissive ? Surface.Transmission : 0.0;
 	Hit.Flags |= (bTransmissive || bBlended ? HIT_TRANSMISSIVE : 0u) | (bBlended ? HIT_BLENDED : 0u);
 	if (bBlended) { Hit.Emissive *= 1.0 - Hit.Transmission; }
-	Hit.Absorption = bSolid ? Material.Absorption : vec3(0.0);
+	Hit.Material = Section.Material;
 	Hit.Flags |= bSolid ? (bFront ? HIT_SOLID : HIT_SOLID | HIT_INSIDE) : 0u;
 #endif
 #ifdef HAS_DIFFUSE_TRANSMISSION

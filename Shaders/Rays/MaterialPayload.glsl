@@ -7,7 +7,7 @@
 //   W3 base colour rg unorm16        W7 emission b fp16 | light-sampling weight fp16
 //                                    W8 object
 // HAS_TRANSMISSION: the upper 8 bits of W8, which no object needs, are inside 1 | solid 1 | transmissive 1 | blended 1. Two words are added.
-//   W9 absorption rg fp16            W10 absorption b fp16 | transmission unorm16
+//   W9 material of a solid           W10 transmission
 // HAS_DIFFUSE_TRANSMISSION: two words are added.
 //   W11 albedo of the other side, rg unorm16   W12 its b unorm16 | share of the diffuse layer that leaves there unorm16
 // The four fp16 are never negative: their signs are the upper channels.
@@ -60,7 +60,7 @@ struct FMaterialHit
 	uint Object;          // into FObjectData[]
 #ifdef HAS_TRANSMISSION
 	float Transmission;   // FMaterialSurface::Transmission
-	vec3 Absorption;      // of HIT_SOLID, 1/m
+	uint Material;        // of HIT_SOLID: into FMaterialData[], see VolumeOf
 #endif
 #ifdef HAS_DIFFUSE_TRANSMISSION
 	vec3 BackAlbedo;      // see FBrdf
@@ -89,8 +89,8 @@ FMaterialPayload PackHit(FMaterialHit Hit)
 	Payload.W8 = Hit.Object;
 #ifdef HAS_TRANSMISSION
 	Payload.W8 |= (Hit.Flags & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE | HIT_BLENDED)) << 21;
-	Payload.W9 = packHalf2x16(min(Hit.Absorption.rg, vec2(65504.0)));
-	Payload.W10 = (packHalf2x16(vec2(min(Hit.Absorption.b, 65504.0), 0.0)) & 0xffffu) | (uint(clamp(Hit.Transmission, 0.0, 1.0) * 65535.0 + 0.5) << 16);
+	Payload.W9 = Hit.Material;
+	Payload.W10 = floatBitsToUint(Hit.Transmission);
 #endif
 #ifdef HAS_DIFFUSE_TRANSMISSION
 	Payload.W11 = packUnorm2x16(Hit.BackAlbedo.rg);
@@ -119,8 +119,8 @@ FMaterialHit UnpackHit(FMaterialPayload Payload)
 #ifdef HAS_TRANSMISSION
 	Hit.Object = Payload.W8 & 0xffffffu;
 	Hit.Flags |= (Payload.W8 >> 21) & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE | HIT_BLENDED);
-	Hit.Transmission = float(Payload.W10 >> 16) / 65535.0;
-	Hit.Absorption = vec3(unpackHalf2x16(Payload.W9), unpackHalf2x16(Payload.W10).x);
+	Hit.Transmission = uintBitsToFloat(Payload.W10);
+	Hit.Material = Payload.W9;
 #else
 	Hit.Object = Payload.W8;
 #endif

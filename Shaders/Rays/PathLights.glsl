@@ -3,6 +3,7 @@
 //   Basis  local frame whose z is the shading normal; Direction * Basis is local, Basis * Direction is world
 //   V      towards the viewer, local;  P  ray origin, already offset from the surface
 //   Ng     geometric normal, towards the viewer;  U  random numbers in [0, 1)
+//   HAS_SCATTERING: places within volumes are lit as well. They have a phase function, and any normals. Paths alone find the sky there.
 //   HAS_DIFFUSE_TRANSMISSION: light from behind counts as well, see BackStep.
 //   bCharacter  see Casters.glsl;  Channels  of the surface's object, see LightProfile.glsl
 #ifndef LANTERN_PATH_LIGHTS_GLSL
@@ -21,6 +22,7 @@ vec3 BackStep = vec3(0.0);
 // Whether a surface sends light from Direction to the viewer: both its normals must have it on one side. LocalZ: of Direction.
 bool IsLitFrom(FBrdf Brdf, vec3 Direction, vec3 Ng, float LocalZ)
 {
+	if (IsPhase(Brdf)) { return true; }
 	float Side = dot(Direction, Ng);
 	return Side > 0.0 ? LocalZ > 0.0 : HasBack(Brdf) && Side < 0.0 && LocalZ < 0.0;
 }
@@ -78,7 +80,7 @@ vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Directi
 		if (Hit.Distance < 0.0) { return T; }
 		if (Hit.Transmission <= 0.0) { break; }
 		Layer += IsClear(Hit) ? 0u : 1u;
-		T *= StraightTransmittance(Hit, Direction, Hit.Distance);
+		T *= StraightTransmittance(Scene, Hit, Direction, Hit.Distance);
 		if (T == vec3(0.0)) { break; }
 		Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
 		Distance -= Hit.Distance;
@@ -134,7 +136,7 @@ vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 float EstimateLightOf(FSceneConstants Scene, FBrdf Brdf, FLightData Light, vec3 P, vec3 Ng)
 {
 	float Estimate = EstimateLight(Scene, Light, P, Ng);
-	return Estimate <= 0.0 && HasBack(Brdf) ? EstimateLight(Scene, Light, P, -Ng) : Estimate;
+	return Estimate <= 0.0 && (HasBack(Brdf) || IsPhase(Brdf)) ? EstimateLight(Scene, Light, P, -Ng) : Estimate;
 }
 
 // Samples one light with a probability proportional to EstimateLight, by weighted reservoir sampling over all that may matter.
@@ -321,7 +323,7 @@ vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P,
 #else
 	const bool bSamplesSky = true;
 #endif
-	if (bSamplesSky) { L += SampleSky(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.zw); }
+	if (bSamplesSky && !IsPhase(Brdf)) { L += SampleSky(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.zw); }
 #endif
 #ifdef HAS_LIGHTS
 	vec2 PointU = vec2(0.0);

@@ -9,6 +9,8 @@
 // NO_CAUSTICS: mirrors show no sun's disk to what they light. Few paths would find it, and each would be a bright blotch.
 // HAS_TRANSMISSION: light shines through some surfaces, see Transmission.glsl. Paths go on behind them, and rays to lights pass straight on.
 //   TINTED_SHADOWS: these rays take what such surfaces leave of the light, as the reference does. Else they take its luminance alone.
+//   HAS_SCATTERING: some volumes scatter light. Paths that end in radiance cells take it from that of the surface, in closed form: see
+//   GatherScattered. Others are scattered.
 //   LIKELIEST_PASSAGE: paths take the likelier side of such surfaces, and cells of one size. Neither has noise, which no filter removes.
 // HAS_DIFFUSE_TRANSMISSION: some surfaces scatter light through. Paths leave them on either side.
 // STANDARD_HITS, STANDARD_HITS_UNSEEN: see MaterialRay.glsl.
@@ -113,7 +115,7 @@ vec3 ShadeEmission(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, floa
 
 FBrdf MakeBrdf(FMaterialHit Hit)
 {
-	FBrdf Brdf;
+	FBrdf Brdf = MakeWhiteLambert();
 	Brdf.BaseColor = Hit.BaseColor;
 	Brdf.Metallic = Hit.Metallic;
 	Brdf.Alpha = Hit.Roughness * Hit.Roughness;
@@ -138,107 +140,6 @@ void SetBackStep(FSceneConstants Scene, vec3 P, vec3 Ng, float Distance)
 }
 #endif
 
-#ifdef HAS_TRANSMISSION
-// What a path through surfaces that transmit has with it.
-struct FPassages
-{
-	vec3 Absorption; // of the volume that the path is in, 1/m
-	float Slope;     // cosine of the path's last part against the surface by which it has entered that
-	uint Left;       // surfaces that it may still meet
-	// Since it was last scattered, or reflected by such a surface:
-	float Length;        // of what it has passed
-	float EmissionShare; // of emitters that light sampling lists
-	uint Mask;           // of its rays
-};
-
-// Of the volume that the next path starts in: FPassages::Absorption and Slope. The thread may set them before.
-vec3 FirstAbsorption = vec3(0.0);
-float FirstSlope = 0.0;
-
-float FirstEmissionShare = 1.0; // FPassages::EmissionShare of paths that begin
-
-FPassages StartPassages() { return FPassages(FirstAbsorption, FirstSlope, MostPassages, 0.0, FirstEmissionShare, GatherMask); }
-
-// Returns what the volume that a path is in leaves of what it meets next.
-vec3 LeftByVolume(FPassages Passages, FMaterialHit Hit)
-{
-	float Length = Hit.Distance < 0.0 ? Infinity : Hit.Distance;
-#ifndef TINTED_SHADOWS
-	// What lies in a volume is lit through it, which no ray to a light tells: from straight above. What shines is not.
-	if (Hit.Transmission <= 0.0 && Hit.Emissive == vec3(0.0)) { Length *= 1.0 + Passages.Slope; }
-#endif
-	return exp(-Passages.Absorption * Length);
-}
-
-void ScatterPassages(inout FPassages Passages)
-{
-	Passages.Length = Passages.Slope = 0.0;
-	Passages.EmissionShare = 1.0;
-	Passages.Mask = MASK_VISIBLE;
-}
-
-// Takes a path on if it meets an interface at Hit, and returns whether it does: else the surface reflects as others do. A path that ends here
-// has a throughput of 0. Origin, Direction: of the ray that met Hit, and of the next one, whose hit Hit becomes. bShown: see FollowPath.
-// A path that goes through keeps the density of its direction. Light sampling at the vertex before found lights straight behind; what bends
-// counts as if it did not. One that is reflected leads where light sampling finds nothing.
-bool TakePassage(FSceneConstants Scene, bool bShown, inout FMaterialHit Hit, inout FPassages Passages, inout vec3 Origin, inout vec3 Direction,
-                 inout vec3 Throughput, inout float Pdf, inout FRandom Random)
-{
-	if (Hit.Transmission <= 0.0) { return false; }
-	vec4 U = NextRandom4(Random);
-#ifdef LIKELIEST_PASSAGE
-	U.w = 0.5;
-#endif
-	if (U.w >= InterfaceShare(Hit)) { return false; }
-	bool bInside = (Hit.Flags & HIT_INSIDE) != 0u;
-	// A path that has begun in the volume did not know of it.
-	if (bInside && Passages.Absorption == vec3(0.0)) { Throughput *= exp(-Hit.Absorption * Hit.Distance); }
-	mat3 Basis = MakeBasis(BendNormal(Hit.Normal, -Direction));
-#ifdef LIKELIEST_PASSAGE
-	U.z = 0.5;
-#endif
-	FPassage Passage = SamplePassage(Hit, Basis, -Direction * Basis, U.xyz);
-	if (!IsClear(Hit)) { Throughput *= Passages.Left-- > 0u ? Passage.Weight : vec3(0.0); }
-	if (Throughput == vec3(0.0)) { return true; }
-	Passages.Length += Hit.Distance;
-	if (!Passage.bThrough)
-	{
-		Pdf = uintBitsToFloat(0x7f800000u);
-		ScatterPassages(Passages);
-	}
-	else if ((Hit.Flags & HIT_SOLID) != 0u) 
-	{
-		Passages.Absorption = bInside ? vec3(0.0) : Hit.Absorption;
-		Passages.Slope = abs(dot(Passage.Direction, Hit.GeometricNormal));
-	}
-	vec3 Side = Passage.bThrough ? -Hit.GeometricNormal : Hit.GeometricNormal;
-	Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, Side, Scene.ObjectReach, Hit.Distance);
-	Direction = Passage.Direction;
-	WidenRayCone(Hit.Distance);
-	Hit = TraceMaterial(Scene, Passages.Mask, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
-	if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= Passages.EmissionShare; }
-	return true;
-}
-#endif
-
-#ifdef KEEPS_HIT
-#include "KeptHit.glsl"
-#endif
-
-// Chooses whether a path goes on to what materials look like, by its share of what is reflected. Returns the factor of what it finds.
-vec3 ChooseShown(vec3 Share, float U, out bool bShown)
-{
-	float Chance = Luminance(Share);
-	bShown = U < Chance;
-	return bShown ? Share / Chance : (vec3(1.0) - Share) / max(1.0 - Chance, 1.0e-6);
-}
-
-#ifdef HAS_TRANSMISSION
-#define LENGTH_PASSED Passages.Length
-#else
-#define LENGTH_PASSED 0.0
-#endif
-
 // Returns a number that chooses the size of a radiance cell.
 float ChooseLevel(inout FRandom Random)
 {
@@ -259,6 +160,28 @@ bool EndsByRoulette(inout vec3 Throughput, inout FRandom Random)
 	return false;
 }
 
+#ifdef HAS_TRANSMISSION
+#include "Passages.glsl"
+#endif
+
+#ifdef KEEPS_HIT
+#include "KeptHit.glsl"
+#endif
+
+// Chooses whether a path goes on to what materials look like, by its share of what is reflected. Returns the factor of what it finds.
+vec3 ChooseShown(vec3 Share, float U, out bool bShown)
+{
+	float Chance = Luminance(Share);
+	bShown = U < Chance;
+	return bShown ? Share / Chance : (vec3(1.0) - Share) / max(1.0 - Chance, 1.0e-6);
+}
+
+#ifdef HAS_TRANSMISSION
+#define LENGTH_PASSED Passages.Length
+#else
+#define LENGTH_PASSED 0.0
+#endif
+
 // Returns the radiance that arrives along a ray traced from Origin to Hit. Pdf and NdotL belong to its direction at the vertex
 // that it left; they weigh it against the next-event estimation there. Bounce: how often the path was scattered before. bShown: whether
 // only mirrors have scattered it.
@@ -276,6 +199,13 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 	for (;; ++Bounce)
 	{
 #ifdef HAS_TRANSMISSION
+#ifdef SCATTERS_BY_CELLS
+		Radiance += Throughput * Passages.Scattered;
+		Passages.Scattered = vec3(0.0);
+#elif defined(HAS_SCATTERING)
+		while (TakeScattering(Scene, Passages, Hit, Origin, Direction, Throughput, Pdf, Radiance, Bounce, MaxBounces, Random)) { NdotL = 0.0; }
+		if (Throughput == vec3(0.0)) { return Radiance; }
+#endif
 		Throughput *= LeftByVolume(Passages, Hit);
 #endif
 		NOTE_END(Hit.Distance < 0.0 ? PATH_END_SKY : PATH_END_DARK);

@@ -51,29 +51,45 @@ float TakeRadianceRest()
 	return Rest;
 }
 
-// Returns what a surface reflects towards V of a cell's light. A part of that light counts as if it came from one direction, the rest as if
-// evenly from all: with n the normal, the mean of directions is then d D + (1 − d) 2/3 n, which has one solution for d and D.
-vec3 ReflectCellLight(FCellLight Light, FBrdf Brdf, float Roughness, vec3 LocalV, vec3 LocalFrom)
+// Light of which a part counts as if it came from one direction, and the rest as if evenly from all.
+struct FSplitLight
 {
-	const float EvenMean = 2.0 / 3.0;      // of cosine-weighted directions, along the normal
-	const float LeastRoughness = 0.4;      // light comes from around the mean direction
-	const float LeastCosine = 0.05;        // of a direction that light has come from
+	float Share; // of the part
+	vec3 From;   // its direction, local, above the surface; of length 0 if none is known
+};
+
+// LocalFrom: FCellLight::From. With n the normal, it is d D + (1 − d) 2/3 n, which has one solution for the share d and the direction D.
+FSplitLight SplitCellLight(vec3 LocalFrom)
+{
+	const float EvenMean = 2.0 / 3.0;  // of cosine-weighted directions, along the normal
+	const float LeastCosine = 0.05;    // of a direction that light has come from
 	vec3 Rest = LocalFrom - vec3(0.0, 0.0, EvenMean);
 	float Along = EvenMean * Rest.z, Factor = 1.0 - EvenMean * EvenMean;
 #ifdef NO_CELL_DIRECTION // r.RT.Debug.GI.CellDirection
 	Rest = vec3(0.0);
 	Along = 0.0;
 #endif
-	float Share = clamp((Along + sqrt(Along * Along + Factor * dot(Rest, Rest))) / Factor, 0.0, 1.0);
-	vec3 From = Rest + vec3(0.0, 0.0, EvenMean * Share);
-	vec3 Reflected = DiffuseReflectance(Brdf, LocalV.z) + (1.0 - Share) * SpecularReflectance(Brdf, LocalV.z, Roughness);
-	if (dot(From, From) > 1.0e-6)
+	FSplitLight Split;
+	Split.Share = clamp((Along + sqrt(Along * Along + Factor * dot(Rest, Rest))) / Factor, 0.0, 1.0);
+	Split.From = Rest + vec3(0.0, 0.0, EvenMean * Split.Share);
+	if (dot(Split.From, Split.From) <= 1.0e-6) { return FSplitLight(Split.Share, vec3(0.0)); }
+	Split.From.z = max(Split.From.z, LeastCosine * length(Split.From));
+	Split.From = normalize(Split.From);
+	return Split;
+}
+
+// Returns what a surface reflects towards V of a cell's light.
+vec3 ReflectCellLight(FCellLight Light, FBrdf Brdf, float Roughness, vec3 LocalV, vec3 LocalFrom)
+{
+	const float LeastRoughness = 0.4; // light comes from around the mean direction
+	FSplitLight Split = SplitCellLight(LocalFrom);
+	vec3 Reflected = DiffuseReflectance(Brdf, LocalV.z) + (1.0 - Split.Share) * SpecularReflectance(Brdf, LocalV.z, Roughness);
+	if (Split.From != vec3(0.0))
 	{
-		From.z = max(From.z, LeastCosine * length(From));
 		Brdf.Alpha = max(Brdf.Alpha, LeastRoughness * LeastRoughness);
 		vec3 Diffuse, Specular;
-		EvaluateLobes(Brdf, LocalV, normalize(From), Diffuse, Specular);
-		Reflected += Share * Pi * Specular;
+		EvaluateLobes(Brdf, LocalV, Split.From, Diffuse, Specular);
+		Reflected += Split.Share * Pi * Specular;
 	}
 	return Light.Irradiance * Reflected;
 }
@@ -104,6 +120,23 @@ void SmoothRadiance(FRadianceGrid Grid, FRadianceQuery Query, float U, inout FCe
 	InOutLight = Sum;
 }
 #endif
+
+// Looks up the light that arrives at a place, for a thread that has none yet, and returns whether it is known. P: where rays would start.
+// RayLength: of the ray that has led there.
+bool LookUpPlace(vec3 P, vec3 Ng, vec3 N, float RayLength, float U, out FCellLight OutLight)
+{
+	OutLight = FCellLight(vec3(0.0), vec3(0.0));
+	if (RadianceGrid == FAddress(0)) { return false; }
+	FRadianceGrid Grid = FRadianceGridRef(RadianceGrid).Data;
+	FRadianceQuery Query = FRadianceQuery(P, Ng, N, distance(P, RadianceCamera), RayLength, false, 0.0);
+	FRadianceVoter Voter = RadianceVoter;
+	RadianceVoter.Note = FAddress(0);
+	if (!LookUpRadiance(Grid, Query, Voter, U, OutLight)) { return false; }
+#ifdef SMOOTH_RADIANCE
+	SmoothRadiance(Grid, Query, U, OutLight);
+#endif
+	return true;
+}
 
 #ifdef HAS_DIFFUSE_TRANSMISSION
 FRadianceQuery TurnQuery(FRadianceQuery Query)

@@ -5,6 +5,8 @@
 #ifndef LANTERN_TRANSMISSION_GLSL
 #define LANTERN_TRANSMISSION_GLSL
 
+#include "Volumes.glsl"
+
 const uint MostPassages = 16u; // surfaces of this kind on a path; one that is caught between more ends
 
 // Whether the hit is one of a surface that covers a share of its place, and leaves the rest as it is.
@@ -50,13 +52,25 @@ float EtaOf(FMaterialHit Hit)
 	return (Hit.Flags & HIT_INSIDE) != 0u ? Index : 1.0 / Index;
 }
 
+// Whether light is found from a place within a volume, where it is scattered. The thread sets it before.
+bool bScattersThere = false;
+
 // What remains of light along a ray that goes straight on through a hit. From: distance from the last such surface.
-vec3 StraightTransmittance(FMaterialHit Hit, vec3 Direction, float From)
+//
+// Light bends as it enters a volume, whose surface counts as flat: its way within is shorter than the ray's. All that arrives on the surface
+// is then within a cone, and the eye sees 1 / index² of it, since rays leave through that cone alone. The rest is reflected within.
+vec3 StraightTransmittance(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, float From)
 {
 	float Cosine = abs(dot(Hit.Normal, Direction));
-	float R = (Hit.Flags & HIT_SOLID) != 0u ? Hit.Specular * mix(Hit.F0, 1.0, SchlickWeight(Cosine)) : InterfaceReflectance(Hit, Cosine, 1.0);
+	bool bSolid = (Hit.Flags & HIT_SOLID) != 0u;
+	float R = bSolid ? Hit.Specular * mix(Hit.F0, 1.0, SchlickWeight(Cosine)) : InterfaceReflectance(Hit, Cosine, 1.0);
 	vec3 T = InterfaceTint(Hit) * (InterfaceShare(Hit) * (1.0 - R));
-	return (Hit.Flags & HIT_INSIDE) != 0u ? T * exp(-Hit.Absorption * From) : T;
+	if (!bSolid) { return T; }
+	float Index = IndexOf(Hit.F0);
+	if ((Hit.Flags & HIT_INSIDE) == 0u) { return T * Index * Index; }
+	float Bent = sqrt(1.0 - (1.0 - Cosine * Cosine) / (Index * Index));
+	T *= exp(-VolumeOf(Scene, Hit).Extinction * From * Cosine / Bent) / (Index * Index);
+	return bScattersThere ? T * Cosine / Bent : T; // which lies in no surface, and has no cosine
 }
 
 struct FPassage

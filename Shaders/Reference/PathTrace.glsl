@@ -71,7 +71,7 @@ FMaterialHit LoadRasterHit(ivec2 Pixel, FGBufferPoint Point)
 #endif
 #ifdef HAS_TRANSMISSION
 	Hit.Transmission = 0.0;
-	Hit.Absorption = vec3(0.0);
+	Hit.Material = 0u;
 #endif
 #ifdef HAS_LIGHT_CHANNELS
 	Hit.Channels = LoadPixelChannels(Push.Channels, uvec2(Pixel));

@@ -115,7 +115,7 @@ LANTERN_ASSERT_SIZE(FSectionData, 32);
 #define TEXTURE_DIFFUSE_TRANSMISSION_COLOR 7 // rgb
 #define TEXTURE_SLOTS 8
 
-// glTF 2.0 metallic-roughness, with the extensions emissive_strength, ior, specular, transmission, volume,
+// glTF 2.0 metallic-roughness, with the extensions emissive_strength, ior, specular, transmission, volume, volume_scatter,
 // diffuse_transmission, texture_transform.
 struct FMaterialData
 {
@@ -136,11 +136,13 @@ struct FMaterialData
 	vec2 UVOffset[TEXTURE_SLOTS];    // added after UVTransform
 	vec3 LightEmissive;   // as Emissive, where it lights something: cameras and mirrors do not see it
 	float EmissiveWeight; // luminance of the mean of LightEmissive, rounded to fp16
-	vec3 Absorption;      // of MATERIAL_SOLID: coefficient, 1/m
+	vec3 Extinction;      // of MATERIAL_SOLID: coefficient of what is absorbed and scattered, 1/m
+	vec3 ScatterAlbedo;   // of MATERIAL_SOLID: share of Extinction that is scattered, once
+	float ScatterAnisotropy; // mean cosine of the angle by which that turns light (Henyey & Greenstein 1941)
 	vec3 DiffuseTransmissionColor;
 	float DiffuseTransmission; // share of the diffuse layer's light that leaves the surface on its other side
 };
-LANTERN_ASSERT_SIZE(FMaterialData, 336);
+LANTERN_ASSERT_SIZE(FMaterialData, 352);
 
 // The world is divided into cells. Positions are fp32, relative to the centre of a cell, and offsets between cells are exact in
 // fp32. Precision thus does not degrade far away from the world's origin.

@@ -87,8 +87,8 @@ vec3 FollowPart(FSceneConstants Scene, uint Part, FMaterialHit Hit, FCameraRay R
 {
 	Look.Weight = OutWeight = vec3(0.0);
 	FMaterialHit Next = Hit;
-	vec3 Origin = Ray.Origin, Direction = Ray.Direction;
-	FirstAbsorption = vec3(0.0);
+	vec3 L = vec3(0.0), Origin = Ray.Origin, Direction = Ray.Direction;
+	FirstVolume = Air();
 	SEES_HITS(true);
 	if (Part == FromBase)
 	{
@@ -105,13 +105,18 @@ vec3 FollowPart(FSceneConstants Scene, uint Part, FMaterialHit Hit, FCameraRay R
 		vec3 Side = Passage.bThrough ? -Hit.GeometricNormal : Hit.GeometricNormal;
 		Origin = PathStart = OffsetRayOrigin(Origin + Direction * Hit.Distance, Side, Scene.ObjectReach, Hit.Distance);
 		Direction = Passage.Direction;
-		FirstAbsorption = Passage.bThrough != ((Hit.Flags & HIT_INSIDE) != 0u) ? Hit.Absorption : vec3(0.0);
+		bool bInside = (Hit.Flags & HIT_INSIDE) != 0u;
+		FirstVolume = Air();
+		if (Passage.bThrough != bInside) { FirstVolume = VolumeOf(Scene, Hit); }
 		FirstSlope = abs(dot(Direction, Hit.GeometricNormal));
 		float Alpha = Hit.Roughness * Hit.Roughness;
 		RayCone = MakePixelCone(FViewRef(Push.Pass.View).Data, Ray.Length + Hit.Distance, Alpha < MinAlpha ? 0.0 : Alpha);
 		Next = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, SHOWS_ALL);
+#ifdef SCATTERS_BY_CELLS
+		if (Passage.bThrough && !bInside) { L = FindScattered(Scene, Hit, Ray.Origin, Ray.Direction, Direction, Next.Distance, ChooseLevel(Random)); }
+#endif
 	}
-	vec3 L = FollowPath(Scene, Next, Origin, Direction, uintBitsToFloat(0x7f800000u), 1.0, 1u, Push.MaxBounces, true, Random);
+	L += FollowPath(Scene, Next, Origin, Direction, uintBitsToFloat(0x7f800000u), 1.0, 1u, Push.MaxBounces, true, Random);
 	return mix(L, vec3(0.0), isnan(L));
 }
 
@@ -139,7 +144,7 @@ bool AddLayer(FSceneConstants Scene, FViewConstants View, FMaterialHit Hit, FCam
 	float Share = InterfaceShare(Hit), Reflected = InterfaceReflectance(Hit, abs(dot(Hit.Normal, Ray.Direction)), EtaOf(Hit));
 	bool bSheet = (Hit.Flags & HIT_SOLID) == 0u, bSmooth = PassesStraight(Hit);
 	// A camera in the volume.
-	if ((Hit.Flags & HIT_INSIDE) != 0u) { Shown.Through *= exp(-Hit.Absorption * Hit.Distance); }
+	if ((Hit.Flags & HIT_INSIDE) != 0u) { Shown.Through *= exp(-VolumeOf(Scene, Hit).Extinction * Hit.Distance); }
 	Shown.Light += Shown.Through * Hit.Emissive;
 	// One loop: paths are much code.
 	vec3 Weights = vec3(1.0 - Share, Share * Reflected, bSheet ? 0.0 : Share * (1.0 - Reflected));

@@ -63,7 +63,7 @@ TEST_F(FTransmissionPassTest, VolumesBendAndAbsorb)
 {
 	FTestScene Scene("Water");
 	FHostMaterial Water = MakeGlass(true, 1.333f);
-	Water.Absorption = glm::vec3(0.7f);
+	Water.Extinction = glm::vec3(0.7f);
 	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddMaterial(Water), 4.0f)}));
 	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(0), glm::vec3(1)), 8.0f, -1.0f)}));
 	ASSERT_TRUE(Load(Scene.Scene));

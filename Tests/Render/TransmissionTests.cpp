@@ -78,7 +78,7 @@ TEST_F(FTransmissionTest, SlabAbsorbs)
 	FTestScene Scene = MakeScene();
 	FHostMaterial Glass = MakeGlass();
 	Glass.bSolid = true;
-	Glass.Absorption = glm::vec3(0.5f, 2.0f, 8.0f);
+	Glass.Extinction = glm::vec3(0.5f, 2.0f, 8.0f);
 	AddSlab(Scene, Glass, 0.5f);
 	const double A = std::exp(-2.0 * 0.5);
 	ExpectClosedForm("absorbing slab", EstimateThrough(Scene, 128), (1.0 - R) * (1.0 - R) * A / (1.0 - R * R * A * A), Tolerance);

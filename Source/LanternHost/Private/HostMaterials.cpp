@@ -109,7 +109,9 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 		Data.Ior = Source.Ior;
 		Data.Specular = Source.Specular;
 		Data.Transmission = Source.Transmission;
-		Data.Absorption = Source.Absorption;
+		Data.Extinction = Source.Extinction;
+		Data.ScatterAlbedo = Source.ScatterAlbedo;
+		Data.ScatterAnisotropy = Source.ScatterAnisotropy;
 		Data.DiffuseTransmission = Source.DiffuseTransmission;
 		Data.DiffuseTransmissionColor = Source.DiffuseTransmissionColor;
 		Data.Flags = (IsMasked(Source) ? MATERIAL_MASKED : 0u) | (Source.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u) |

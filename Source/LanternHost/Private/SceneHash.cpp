@@ -109,7 +109,12 @@ public:
 		if (V.LightEmissive) { AddFloats(*V.LightEmissive); }
 		AddAll(V.Metallic, V.Roughness, V.NormalScale, V.OcclusionStrength, V.AlphaCutoff, V.Ior, V.Specular, V.Transmission, V.AlphaMode,
 		    V.bDoubleSided, V.bSolid);
-		AddFloats(V.Absorption);
+		AddFloats(V.Extinction);
+		if (V.ScatterAlbedo != glm::vec3(0))
+		{
+			AddFloats(V.ScatterAlbedo);
+			AddAll(V.ScatterAnisotropy);
+		}
 		if (V.DiffuseTransmission > 0.0f)
 		{
 			AddAll(V.DiffuseTransmission);

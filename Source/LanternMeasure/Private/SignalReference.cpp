@@ -64,7 +64,7 @@ void AddMaterials(FContentHasher& Hash, const FRTScene& Scene, const FMaterialPr
 		FMaterialData Data = Scene.GetMaterials()[Index];
 		// Which texture is the content's affair; where it lies in the heap changes from run to run.
 		for (uint32_t& Texture : Data.Textures) { Texture = Texture == NO_TEXTURE ? 1u : 0u; }
-		static_assert(sizeof(FMaterialData) == 336, "hashed as bytes: no padding");
+		static_assert(sizeof(FMaterialData) == 352, "hashed as bytes: no padding");
 		Hash.AddBytes(&Data, sizeof(Data));
 		Hash.AddText(Programs.Get(Scene.GetMaterialProgram(Index)).Name);
 	}

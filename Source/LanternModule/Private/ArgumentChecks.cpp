@@ -246,7 +246,8 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	    {Material.OcclusionStrength, "OcclusionStrength"}, {Material.Specular, "Specular"}, {Material.Transmission, "Transmission"},
 	    {Material.DiffuseTransmission, "DiffuseTransmission"}, {Material.DiffuseTransmissionColor[0], "DiffuseTransmissionColor[0]"},
 	    {Material.DiffuseTransmissionColor[1], "DiffuseTransmissionColor[1]"},
-	    {Material.DiffuseTransmissionColor[2], "DiffuseTransmissionColor[2]"}};
+	    {Material.DiffuseTransmissionColor[2], "DiffuseTransmissionColor[2]"}, {Material.ScatterAlbedo[0], "ScatterAlbedo[0]"},
+	    {Material.ScatterAlbedo[1], "ScatterAlbedo[1]"}, {Material.ScatterAlbedo[2], "ScatterAlbedo[2]"}};
 	for (const auto& [Value, Name] : Shares)
 	{
 		if (!(Value >= 0.0f && Value <= 1.0f))
@@ -266,6 +267,10 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	if (!std::all_of(Material.AttenuationColor, Material.AttenuationColor + 3, IsColor) || !(Material.AttenuationDistance > 0.0f))
 	{
 		return Refuse("FRTModuleMaterial::AttenuationColor must be greater than 0 and at most 1, and AttenuationDistance greater than 0");
+	}
+	if (!(std::abs(Material.ScatterAnisotropy) < 1.0f))
+	{
+		return Refuse("FRTModuleMaterial::ScatterAnisotropy must be greater than -1 and less than 1");
 	}
 	FRTStatus Status;
 	const char* const Names[] = {"BaseColorMap", "MetallicRoughnessMap", "NormalMap", "OcclusionMap", "EmissiveMap", "TransmissionMap",

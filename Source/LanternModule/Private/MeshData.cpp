@@ -306,7 +306,9 @@ FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 	Data.Ior = Material.Ior;
 	Data.Specular = Material.Specular;
 	Data.Transmission = Material.Transmission;
-	Data.Absorption = glm::min(-glm::log(ReadVector(Material.AttenuationColor, 0)) / Material.AttenuationDistance, glm::vec3(1.0e6f));
+	Data.Extinction = glm::min(-glm::log(ReadVector(Material.AttenuationColor, 0)) / Material.AttenuationDistance, glm::vec3(1.0e6f));
+	Data.ScatterAlbedo = ReadVector(Material.ScatterAlbedo, 0);
+	Data.ScatterAnisotropy = Material.ScatterAnisotropy;
 	Data.DiffuseTransmission = Material.DiffuseTransmission;
 	Data.DiffuseTransmissionColor = ReadVector(Material.DiffuseTransmissionColor, 0);
 	const bool bBlended = Material.bBlended && Material.Transmission <= 0.0f;

@@ -21,6 +21,8 @@ TRTConsoleVariable<bool> CVarDiffuseTransmission("r.RT.DiffuseTransmission", tru
     "Light scatters through leaves, paper and cloth to their other side, where materials say so (glTF: "
     "KHR_materials_diffuse_transmission). "
     "Off: all their diffuse light leaves on the side that it arrives on.");
+TRTConsoleVariable<bool> CVarScattering("r.RT.Transmission.Scattering", true,
+    "Light is scattered within water and other volumes whose materials say so (glTF: KHR_materials_volume_scatter). Off: they absorb it.");
 TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
     "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "
     "Lambert of 0.5.",
@@ -81,6 +83,7 @@ FSceneFacts AddFrameFacts(FSceneFacts Facts, const FFrameFeatures& Features, con
 	const bool bScatters = CVarDiffuseTransmission.GetOnRenderThread(), bInScene = bScatters && Facts.bDiffuseTransmission;
 	Facts.bBackPixels = Features.BackAlbedo == EBackAlbedo::OfScene ? bInScene : bScatters && Features.BackAlbedo == EBackAlbedo::Always;
 	Facts.bDiffuseTransmission = bInScene;
+	Facts.bScattering = Facts.bScattering && CVarScattering.GetOnRenderThread();
 	Facts.bSkyInPlace = Facts.bSkyProgram && (Features.bReference || !IsSkyBaked());
 	Facts.bLightMask = Requests.bLightMask && Facts.Lights > 0;
 	Facts.bMaskAlone = Facts.bLightMask && !IsAnyMadeBesideLightMask(Requests);

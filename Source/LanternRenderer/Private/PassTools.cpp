@@ -20,6 +20,8 @@ TRTConsoleVariable<bool> CVarLightEmission("r.RT.Debug.Lights.LightEmission", tr
     "Planted fault. Off: materials light with what cameras see of them, whatever their second emission is.");
 TRTConsoleVariable<bool> CVarBackLobe(
     "r.RT.Debug.DiffuseTransmission", true, "Planted fault. Off: light that leaves surfaces on their other side is lost.");
+TRTConsoleVariable<bool> CVarScatteredDepth(
+    "r.RT.Debug.Transmission.Scattering", true, "Planted fault. Off: water takes nothing from light on its way to where it is scattered.");
 } // namespace
 
 namespace
@@ -148,6 +150,8 @@ FShaderDefines MakePathDefines(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	AddTransmissionDefine(Facts, Defines);
+	if (Facts.bScattering) { Defines.emplace_back("HAS_SCATTERING", "1"); }
+	if (Facts.bScattering && !CVarScatteredDepth.GetOnRenderThread()) { Defines.emplace_back("NO_SCATTERED_DEPTH", "1"); }
 	if (Facts.bEmissive) { Defines.emplace_back("HAS_EMISSIVE", "1"); }
 	if (Facts.bCharacters) { Defines.emplace_back("HAS_CHARACTERS", "1"); }
 	return Defines;

@@ -71,6 +71,8 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 	Material.bSolid = true;
 	Material.AttenuationColor[1] = 0.5f;
 	Material.AttenuationDistance = 0.25f;
+	Material.ScatterAlbedo[2] = 0.875f;
+	Material.ScatterAnisotropy = -0.5f;
 	Material.DiffuseTransmission = 0.375f;
 	Material.DiffuseTransmissionColor[1] = 0.625f;
 	FRTModuleMap* const Maps[] = {&Material.BaseColorMap, &Material.MetallicRoughnessMap, &Material.NormalMap, &Material.OcclusionMap,
@@ -92,8 +94,10 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 	EXPECT_EQ(Data.DiffuseTransmission, 0.375f);
 	EXPECT_EQ(Data.DiffuseTransmissionColor, glm::vec3(1, 0.625f, 1));
 	EXPECT_EQ(Data.Flags, MATERIAL_SOLID);
-	EXPECT_NEAR(Data.Absorption.y, std::log(2.0f) / 0.25f, 1e-5f);
-	EXPECT_EQ(Data.Absorption.x, 0.0f);
+	EXPECT_NEAR(Data.Extinction.y, std::log(2.0f) / 0.25f, 1e-5f);
+	EXPECT_EQ(Data.Extinction.x, 0.0f);
+	EXPECT_EQ(Data.ScatterAlbedo, glm::vec3(0, 0, 0.875f));
+	EXPECT_EQ(Data.ScatterAnisotropy, -0.5f);
 	EXPECT_EQ(Data.NormalScale, 0.75f);
 	EXPECT_EQ(Data.OcclusionStrength, 0.25f);
 	EXPECT_EQ(Data.Ior, 1.33f);

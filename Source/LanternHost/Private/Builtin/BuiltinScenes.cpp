@@ -15,6 +15,7 @@
 #include "Builtin/Stability/StabilityScenes.h"
 #include "Builtin/Tests/TestScenes.h"
 #include "Builtin/ToonScene.h"
+#include "Builtin/WaterScene.h"
 #include "LanternCore/Text/Quote.h"
 
 namespace Lantern
@@ -53,6 +54,8 @@ constexpr FEntry Entries[] = {
         [](const FValues&) { return BuildGlassScene(); }},
     {{"leaves", "SCATTERING=1", "a bower against the sun: leaves, a paper screen and a lantern; 0: no light scatters through them"},
         {{"SCATTERING", 1.0f, 0.0f, 1.0f}}, [](const FValues& P) { return BuildLeavesScene(P[0] >= 0.5f); }},
+    {{"water", "SCATTERING=1", "a pond whose water scatters light, with a jetty and stones; 0: it does not"}, {{"SCATTERING", 1.0f, 0.0f, 1.0f}},
+        [](const FValues& P) { return BuildWaterScene(P[0] >= 0.5f); }},
     {{"furnace", "ALBEDO=0.5", "closed room that emits 0.5; every pixel is 0.5/(1-albedo)"}, {{"ALBEDO", 0.5f, 0.0f, 0.99f}},
         [](const FValues& P) { return BuildFurnace(P[0]); }},
     {{"sphere", "ALBEDO=0.5", "inside of a diffuse sphere of 96 m^2 around 10,000 lm; irradiance 104.17/(1-albedo)"},

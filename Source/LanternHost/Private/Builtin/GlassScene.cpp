@@ -23,12 +23,12 @@ FHostMaterial MakeGlass(const char* Name, const glm::vec3& Color = glm::vec3(1),
 	return Glass;
 }
 
-FHostMaterial MakeSolid(const char* Name, float Ior, const glm::vec3& Absorption)
+FHostMaterial MakeSolid(const char* Name, float Ior, const glm::vec3& Extinction)
 {
 	FHostMaterial Solid = MakeGlass(Name);
 	Solid.Ior = Ior;
 	Solid.bSolid = true;
-	Solid.Absorption = Absorption;
+	Solid.Extinction = Extinction;
 	Solid.bDoubleSided = false;
 	return Solid;
 }

@@ -15,7 +15,7 @@ namespace Lantern::Gltf
 namespace
 {
 
-constexpr std::array<std::string_view, 11> SupportedExtensions = {
+constexpr std::array<std::string_view, 12> SupportedExtensions = {
     "KHR_lights_punctual",
     "KHR_materials_diffuse_transmission",
     "KHR_materials_emissive_strength",
@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 11> SupportedExtensions = {
     "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
     "KHR_texture_transform",
     "KHR_mesh_quantization",
     "EXT_mesh_gpu_instancing",

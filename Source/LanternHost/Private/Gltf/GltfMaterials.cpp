@@ -150,7 +150,26 @@ void ReadTransmission(FDocument& Document, FTextureTable& Table, const FJson& Js
 	if (!(Distance > 0.0f)) { Volume.Fail(fmt::format("attenuationDistance {} is not greater than 0", Distance)); }
 	constexpr float Darkest = 1.0e-6f, Most = 1.0e6f; // what is black absorbs all within a fraction of the distance
 	const glm::vec3 Color = glm::clamp(Volume.GetVec3("attenuationColor", glm::vec3(1)), glm::vec3(Darkest), glm::vec3(1));
-	Material.Absorption = glm::min(-glm::log(Color) / Distance, glm::vec3(Most));
+	Material.Extinction = glm::min(-glm::log(Color) / Distance, glm::vec3(Most));
+}
+
+/// What the volume scatters: the share of a single time, of the colour that all of it makes (Kulla & Conty 2017, with van de Hulst's similarity
+/// for volumes that scatter forward).
+void ReadScattering(FDocument& Document, const FJson& Json, FHostMaterial& Material)
+{
+	const FJson Scatter = Json.Extension("KHR_materials_volume_scatter");
+	if (!Scatter.Exists()) { return; }
+	if (!Material.bSolid || Material.Transmission <= 0.0f)
+	{
+		Document.Warn("KHR_materials_volume_scatter: read only beside KHR_materials_transmission and a thickness");
+		return;
+	}
+	const glm::vec3 Color = glm::clamp(Scatter.GetVec3("multiscatterColor", glm::vec3(0)), 0.0f, 1.0f);
+	const float G = Scatter.GetFloat("scatterAnisotropy", 0.0f);
+	if (!(std::abs(G) < 1.0f)) { Scatter.Fail(fmt::format("scatterAnisotropy {} does not lie between -1 and 1", G)); }
+	const glm::vec3 Root = 4.09712f + 4.20863f * Color - glm::sqrt(9.59217f + 41.6808f * Color + 17.7126f * Color * Color);
+	Material.ScatterAlbedo = glm::clamp((1.0f - Root * Root) / (1.0f - G * Root * Root), 0.0f, 1.0f);
+	Material.ScatterAnisotropy = G;
 }
 
 void ReadDiffuseTransmission(FDocument& Document, FTextureTable& Table, const FJson& Json, FHostMaterial& Material)
@@ -221,6 +240,7 @@ FHostMaterial ReadMaterial(FDocument& Document, FTextureTable& Table, const FJso
 	ReadAlpha(Json, Material);
 	ReadExtensions(Document, Json, Material);
 	ReadTransmission(Document, Table, Json, Material);
+	ReadScattering(Document, Json, Material);
 	ReadDiffuseTransmission(Document, Table, Json, Material);
 	ReadUnlit(Document, Json, Material);
 	ReadLightEmission(Json, Material);

@@ -26,7 +26,7 @@ namespace Lantern
 
 /// Incremented when anything changes that an engine was compiled with: in this folder, LanternSignals/Signals.h or
 /// the RHI. The library refuses other versions. A new signal is no change: the arrays have room for MaxSignals.
-inline constexpr uint32_t ModuleVersion = 10;
+inline constexpr uint32_t ModuleVersion = 11;
 
 class IRTModuleVulkan;
 
@@ -136,6 +136,11 @@ struct FRTModuleMaterial
 	float DiffuseTransmissionColor[3] = {1, 1, 1}; ///< factor of what leaves there, linear, 0–1
 	FRTModuleMap DiffuseTransmissionMap;           ///< a
 	FRTModuleMap DiffuseTransmissionColorMap;      ///< sRGB format
+	/// With bSolid: the share of what AttenuationColor takes from light that is scattered and not absorbed, 0–1: water, milk, wax
+	/// (KHR_materials_volume_scatter). It counts light that is scattered once. That extension's multiscatterColor counts all of it.
+	float ScatterAlbedo[3] = {0, 0, 0};
+	/// Mean cosine of the angle by which scattering turns light, greater than -1 and less than 1. 0: evenly to all sides.
+	float ScatterAnisotropy = 0.0f;
 };
 
 /// What an engine knows of an object's future.

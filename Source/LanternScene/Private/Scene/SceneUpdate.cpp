@@ -60,6 +60,7 @@ const FSceneFacts& FSceneUpdate::RefreshFacts()
 	Facts.bEmissive = Sections.GetEmissiveRangeCount() > 0;
 	Facts.bTransmissive = Sections.GetTransmissiveRangeCount() > 0;
 	Facts.bDiffuseTransmission = Sections.GetDiffuseTransmissionRangeCount() > 0;
+	Facts.bScattering = Sections.GetScatteringRangeCount() > 0;
 	Facts.bLightEmission = Sections.GetLightEmissionRangeCount() > 0;
 	RefreshLightFacts();
 	return Facts;

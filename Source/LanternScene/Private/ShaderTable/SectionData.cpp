@@ -51,6 +51,12 @@ bool IsTransmissive(const FSectionContext& Context, const FMaterialData& Materia
 	return Context.bTransmission && Context.Override == 0 && LightShinesThrough(Material);
 }
 
+bool IsScattering(const FSectionContext& Context, const FMaterialData& Material)
+{
+	const bool bSolid = IsTransmissive(Context, Material) && (Material.Flags & MATERIAL_SOLID) != 0;
+	return bSolid && Material.Extinction * Material.ScatterAlbedo != glm::vec3(0);
+}
+
 bool MayListEmissive(const FRTGeometry& Geometry, uint32_t Section)
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();

@@ -21,6 +21,9 @@ inline bool LightShinesThrough(const FMaterialData& Material)
 /// As LightShinesThrough, under the context's override: none has such.
 bool IsTransmissive(const FSectionContext& Context, const FMaterialData& Material);
 
+/// Returns whether it is the surface of a volume that scatters light.
+bool IsScattering(const FSectionContext& Context, const FMaterialData& Material);
+
 /// Returns whether light sampling may list triangles of a section: those of the finest level of detail, once they are there. Coarser
 /// levels count other triangles.
 bool MayListEmissive(const FRTGeometry& Geometry, uint32_t Section);

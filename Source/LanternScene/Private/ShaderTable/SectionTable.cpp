@@ -272,7 +272,7 @@ void FSectionTable::UpdateFlags(FSectionRangeId Id)
 {
 	const FSectionRange& Range = Ranges[Id];
 	bool bMasked = false, bDoubleSided = true, bEmissive = false, bLightEmission = false, bTransmissive = false;
-	bool bDiffuseTransmission = false;
+	bool bDiffuseTransmission = false, bScattering = false;
 	for (const uint32_t Material : Range.Materials)
 	{
 		bDoubleSided &= (Context.Materials[Material].Flags & MATERIAL_DOUBLE_SIDED) != 0;
@@ -281,10 +281,11 @@ void FSectionTable::UpdateFlags(FSectionRangeId Id)
 		bLightEmission |= Data.LightEmissive != Data.Emissive;
 		bTransmissive |= IsTransmissive(Context, Data);
 		bDiffuseTransmission |= Context.Override == 0 && Data.DiffuseTransmission > 0.0f;
+		bScattering |= IsScattering(Context, Data);
 	}
 	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
 	for (uint32_t Part = 0; Part < Parts; ++Part) { bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0; }
-	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission, bTransmissive, bDiffuseTransmission});
+	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission, bTransmissive, bDiffuseTransmission, bScattering});
 	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
 	{
 		RefutedGeometries.push_back(Range.Geometry->weak_from_this());
@@ -299,6 +300,7 @@ void FSectionTable::SetFlags(FSectionRangeId Id, const FRangeFlags& New)
 	EmissiveRangeCount += uint32_t(New.bEmissive) - uint32_t(Flags.bEmissive);
 	TransmissiveRangeCount += uint32_t(New.bTransmissive) - uint32_t(Flags.bTransmissive);
 	DiffuseTransmissionRangeCount += uint32_t(New.bDiffuseTransmission) - uint32_t(Flags.bDiffuseTransmission);
+	ScatteringRangeCount += uint32_t(New.bScattering) - uint32_t(Flags.bScattering);
 	LightEmissionRangeCount += uint32_t(New.bLightEmission) - uint32_t(Flags.bLightEmission);
 	Flags = New;
 	MarkRange(Id);

@@ -215,7 +215,7 @@ int32_t AddWater(FSceneBuilder& Builder)
 	Material.Ior = 1.333f;
 	Material.Transmission = 1.0f;
 	Material.bSolid = true;
-	Material.Absorption = {1.8f, 0.5f, 0.4f}; // a little green
+	Material.Extinction = {1.8f, 0.5f, 0.4f}; // a little green
 	return Builder.AddMaterial(Material);
 }
 

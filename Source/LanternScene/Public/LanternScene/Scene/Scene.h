@@ -54,6 +54,7 @@ struct FSceneFacts
 	bool bEmissive = false;
 	bool bTransmissive = false;        ///< light shines through some material
 	bool bDiffuseTransmission = false; ///< some material scatters light through to its other side
+	bool bScattering = false;          ///< light is scattered within some solid
 	bool bLightEmission = false;       ///< some of it lights otherwise than it looks: FMaterialData::LightEmissive
 	bool bSun = false;
 	bool bSky = false;

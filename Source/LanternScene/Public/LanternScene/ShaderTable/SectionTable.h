@@ -34,6 +34,7 @@ struct FRangeFlags
 	bool bLightEmission = false;       ///< some material lights otherwise than it looks: FMaterialData::LightEmissive
 	bool bTransmissive = false;        ///< light shines through some material
 	bool bDiffuseTransmission = false; ///< some material scatters light through to its other side
+	bool bScattering = false;          ///< light is scattered within some solid
 	friend bool operator==(const FRangeFlags&, const FRangeFlags&) = default;
 };
 
@@ -84,6 +85,7 @@ public:
 	uint32_t GetLightEmissionRangeCount() const { return LightEmissionRangeCount; }
 	uint32_t GetTransmissiveRangeCount() const { return TransmissiveRangeCount; }
 	uint32_t GetDiffuseTransmissionRangeCount() const { return DiffuseTransmissionRangeCount; }
+	uint32_t GetScatteringRangeCount() const { return ScatteringRangeCount; }
 	uint32_t GetEmissiveRangeCount() const { return EmissiveRangeCount; }
 
 	/// Returns the part of a range's surface that a section has, by its triangles: 0 to 1.
@@ -170,6 +172,7 @@ private:
 	std::vector<FSectionRangeId> Buckets; // a power of two
 	uint32_t RangeCount = 0, MaskedRangeCount = 0, EmissiveRangeCount = 0, LightEmissionRangeCount = 0, TransmissiveRangeCount = 0;
 	uint32_t DiffuseTransmissionRangeCount = 0;
+	uint32_t ScatteringRangeCount = 0;
 	std::deque<std::vector<FSectionRangeId>> RangesOfGeometry; // by its slot
 	std::vector<std::vector<FMaterialUse>> UsesOfMaterial;
 
