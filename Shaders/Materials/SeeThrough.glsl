@@ -39,8 +39,9 @@ float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primiti
 	float Depth = -log(max(Share * Luminance(EvaluateBaseColor(Material, Inputs).rgb), Least));
 	if ((Material.Flags & MATERIAL_SOLID) != 0u)
 	{
-		// See StraightTransmittance. A transform that mirrors swaps sides, which a ray that passes the whole volume does not see.
-		float Widened = 2.0 * log(max(Material.Ior, 1.0));
+		// See StraightTransmittance. At most that of water: where no filter follows, what leaves less than half blocks all.
+		const float Most = 1.333;
+		float Widened = 2.0 * log(clamp(Material.Ior, 1.0, Most));
 		Depth += Side > 0.0 ? Widened : -Widened;
 	}
 	return Depth;

@@ -68,6 +68,10 @@ struct FMaterialHit
 #endif
 };
 
+#ifdef HAS_TRANSMISSION
+const float LeastTransmission = 1.0 / 65536.0; // what lets less through is opaque
+#endif
+
 // Two bits where two fp16 have their signs.
 uint SignsOf(uint Bits) { return ((Bits & 1u) << 15) | ((Bits & 2u) << 30); }
 uint BitsOf(uint Signs) { return ((Signs >> 15) & 1u) | ((Signs >> 30) & 2u); }
@@ -90,7 +94,7 @@ FMaterialPayload PackHit(FMaterialHit Hit)
 #ifdef HAS_TRANSMISSION
 	Payload.W8 |= (Hit.Flags & (HIT_INSIDE | HIT_SOLID | HIT_TRANSMISSIVE | HIT_BLENDED)) << 21;
 	Payload.W9 = Hit.Material;
-	Payload.W10 = floatBitsToUint(Hit.Transmission);
+	Payload.W10 = floatBitsToUint(Hit.Transmission < LeastTransmission ? 0.0 : min(Hit.Transmission, 1.0));
 #endif
 #ifdef HAS_DIFFUSE_TRANSMISSION
 	Payload.W11 = packUnorm2x16(Hit.BackAlbedo.rg);

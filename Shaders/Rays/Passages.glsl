@@ -21,7 +21,7 @@ struct FPassages
 #endif
 };
 
-// Of the volume that the next path starts in: FPassages::Volume and Slope. The thread may set them before.
+// FPassages::Volume and Slope of the next path, if it starts in a volume. The thread may set them before.
 FVolume FirstVolume = Air();
 float FirstSlope = 0.0;
 
@@ -46,7 +46,11 @@ FPassages StartPassages()
 vec3 LeftByVolume(FPassages Passages, FMaterialHit Hit)
 {
 	float Length = Hit.Distance < 0.0 ? Infinity : Hit.Distance;
-	vec3 Left = exp(-Passages.Volume.Extinction * Length);
+	vec3 Extinction = Passages.Volume.Extinction;
+#ifdef SCATTERS_BY_CELLS
+	if (Hit.Transmission <= 0.0) { Extinction = SeenExtinction(Passages.Volume); }
+#endif
+	vec3 Left = exp(-Extinction * Length);
 #ifndef TINTED_SHADOWS
 	// What lies in a volume is lit through it, which no ray to a light tells: from straight above. What shines is not.
 	if (Hit.Transmission <= 0.0 && Hit.Emissive == vec3(0.0)) { Left *= exp(-DownwardExtinction(Passages.Volume) * (Length * Passages.Slope)); }
@@ -74,7 +78,8 @@ vec3 FindScattered(FSceneConstants Scene, FMaterialHit Surface, vec3 Origin, vec
 	if (!Scatters(Volume)) { return vec3(0.0); }
 	vec3 Ng = Surface.GeometricNormal, P = OffsetRayOrigin(Origin + Before * Surface.Distance, Ng, Scene.ObjectReach, Surface.Distance);
 	FCellLight Light;
-	if (!LookUpPlace(P, Ng, Surface.Normal, Surface.Distance, U, Light)) { return vec3(0.0); }
+	const float LeastLength = 1.0; // metres: of a ray that has led there. Water is flat, so cells near the eye may be as large
+	if (!LookUpPlace(P, Ng, Surface.Normal, max(Surface.Distance, LeastLength), U, Light)) { return vec3(0.0); }
 	mat3 Basis = MakeBasis(Ng);
 	FSplitLight Split = SplitCellLight(Light.From * Basis);
 	float Index = IndexOf(Surface.F0), Squared = Index * Index;
@@ -102,13 +107,19 @@ bool TakePassage(FSceneConstants Scene, bool bShown, inout FMaterialHit Hit, ino
 #endif
 	if (U.w >= InterfaceShare(Hit)) { return false; }
 	bool bInside = (Hit.Flags & HIT_INSIDE) != 0u;
-#ifdef TINTED_SHADOWS
-	if (bInside && IsAir(Passages.Volume)) // a path that has begun in the volume did not know of it
+	bool bKnows = !bInside || !IsAir(Passages.Volume); // a path that has begun in the volume did not know of it
+#ifdef SCATTERS_BY_CELLS
+	bKnows = bKnows || Scatters(VolumeOf(Scene, Hit)); // what such a volume takes from the path, it scatters into it
+#endif
+	if (!bKnows)
 	{
 		Passages.Volume = VolumeOf(Scene, Hit);
-		Throughput *= exp(-Passages.Volume.Extinction * Hit.Distance);
-	}
+		float Way = Hit.Distance;
+#ifndef TINTED_SHADOWS
+		Way *= 1.0 - abs(dot(Direction, Hit.GeometricNormal)); // who sees where it has begun counts the way straight down, see LeftByVolume
 #endif
+		Throughput *= exp(-Passages.Volume.Extinction * Way);
+	}
 	mat3 Basis = MakeBasis(BendNormal(Hit.Normal, -Direction));
 #ifdef LIKELIEST_PASSAGE
 	U.z = 0.5;
@@ -121,6 +132,7 @@ bool TakePassage(FSceneConstants Scene, bool bShown, inout FMaterialHit Hit, ino
 	{
 		Pdf = uintBitsToFloat(0x7f800000u);
 		ScatterPassages(Passages);
+		if (bInside) { Passages.Slope = abs(dot(Passage.Direction, Hit.GeometricNormal)); }
 	}
 	else if ((Hit.Flags & HIT_SOLID) != 0u) 
 	{
@@ -161,21 +173,28 @@ bool TakeScattering(FSceneConstants Scene, inout FPassages Passages, inout FMate
 		return false;
 	}
 	vec3 Left = Volume.Extinction * exp(-Volume.Extinction * Way);
-	Throughput *= Bounce < MaxBounces ? Volume.Albedo * Left / dot(Shares, Left) : vec3(0.0);
-#ifndef TINTED_SHADOWS
-	Throughput *= exp(-DownwardExtinction(Volume) * (Way * Passages.Slope)); // see LeftByVolume
-#endif
+	Throughput *= Bounce < MaxBounces ? Volume.Albedo * Left / max(dot(Shares, Left), 1.0e-30) : vec3(0.0);
 	if (Throughput == vec3(0.0)) { return false; }
+	vec3 Lit = Throughput;
+#ifdef TINTED_SHADOWS
+	PlaceVolume = Volume;
+#else
+	Lit *= exp(-DownwardExtinction(Volume) * (Way * Passages.Slope)); // see LeftByVolume
+#endif
 	++Bounce;
 	Origin += Direction * Way;
 #ifdef HAS_DIFFUSE_TRANSMISSION
 	BackStep = vec3(0.0);
 #endif
 	bScattersThere = true;
-	Radiance += Throughput * SampleLights(Scene, MakePhase(Volume.Anisotropy), MakeBasis(-Direction), vec3(0.0, 0.0, 1.0), Origin, -Direction, false,
+	Radiance += Lit * SampleLights(Scene, MakePhase(Volume.Anisotropy), MakeBasis(-Direction), vec3(0.0, 0.0, 1.0), Origin, -Direction, false,
 	                                      AllChannels, SHOWS_NOTHING, Random);
 	bScattersThere = false;
-	if (Bounce >= 3u && EndsByRoulette(Throughput, Random)) { Throughput = vec3(0.0); }
+	if (Bounce >= 3u && EndsByRoulette(Throughput, Random))
+	{
+		Throughput = vec3(0.0);
+		return false;
+	}
 	vec3 Local = SamplePhase(Volume.Anisotropy, U.zw);
 	Direction = MakeBasis(Direction) * Local;
 	Pdf = PhaseFunction(Local.z, Volume.Anisotropy);
@@ -185,5 +204,21 @@ bool TakeScattering(FSceneConstants Scene, inout FPassages Passages, inout FMate
 	return true;
 }
 #endif
+
+// Takes a path through the volume that it is in, up to Hit, and returns whether that has scattered it. A path that ends there has a throughput
+// of 0.
+bool PassVolume(FSceneConstants Scene, inout FPassages Passages, inout FMaterialHit Hit, inout vec3 Origin, inout vec3 Direction, inout vec3 Throughput,
+                inout float Pdf, inout vec3 Radiance, inout uint Bounce, uint MaxBounces, inout FRandom Random)
+{
+	bool bScattered = false;
+#ifdef SCATTERS_BY_CELLS
+	Radiance += Throughput * Passages.Scattered;
+	Passages.Scattered = vec3(0.0);
+#elif defined(HAS_SCATTERING)
+	while (TakeScattering(Scene, Passages, Hit, Origin, Direction, Throughput, Pdf, Radiance, Bounce, MaxBounces, Random)) { bScattered = true; }
+#endif
+	Throughput *= LeftByVolume(Passages, Hit);
+	return bScattered;
+}
 
 #endif

@@ -74,13 +74,15 @@ vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Directi
 {
 #ifdef TINTED_SHADOWS
 	vec3 T = vec3(1.0);
+	FVolume Volume = PlaceVolume;
 	for (uint Layer = 0u; Layer < MostPassages;)
 	{
 		FMaterialHit Hit = TraceMaterial(Scene, Casters, Origin, Direction, Distance, SHOWS_NOTHING);
-		if (Hit.Distance < 0.0) { return T; }
+		if (Hit.Distance < 0.0) { return Distance < LightInfinity ? T * exp(-Volume.Extinction * Distance) : T; } // a lamp in the volume
 		if (Hit.Transmission <= 0.0) { break; }
 		Layer += IsClear(Hit) ? 0u : 1u;
 		T *= StraightTransmittance(Scene, Hit, Direction, Hit.Distance);
+		if ((Hit.Flags & HIT_SOLID) != 0u) { Volume = (Hit.Flags & HIT_INSIDE) != 0u ? Air() : VolumeOf(Scene, Hit); }
 		if (T == vec3(0.0)) { break; }
 		Origin = OffsetRayOrigin(Origin + Direction * Hit.Distance, -Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
 		Distance -= Hit.Distance;

@@ -182,6 +182,32 @@ vec3 ChooseShown(vec3 Share, float U, out bool bShown)
 #define LENGTH_PASSED 0.0
 #endif
 
+#ifdef RADIANCE_CELLS
+// Adds what a radiance cell knows of the light at a hit, or weighs the path for what it has not found, and returns whether the path ends.
+// bLooksUp: also before its last hit.
+bool EndsInCells(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, uint Bounce, uint MaxBounces, bool bLooksUp, inout vec3 Throughput,
+                 inout vec3 Radiance, inout FRandom Random)
+{
+	vec3 Known;
+	float NearCells = Bounce == 1u ? RadianceNear : 0.0;
+	bool bLast = Bounce >= MaxBounces;
+	if ((bLast || bLooksUp) && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, bLast, ChooseLevel(Random), Known))
+	{
+		NOTE_END(bLast && IsMirror(Brdf) ? PATH_END_STAND_IN : PATH_END_CELL);
+		Radiance += Throughput * Known;
+		return true;
+	}
+	Throughput *= TakeRadianceRest();
+	if (bLast || Throughput == vec3(0.0)) { return true; }
+#ifdef DEFERS_PATHS
+	bRadianceDeferred = true;
+	return true;
+#else
+	return false;
+#endif
+}
+#endif
+
 // Returns the radiance that arrives along a ray traced from Origin to Hit. Pdf and NdotL belong to its direction at the vertex
 // that it left; they weigh it against the next-event estimation there. Bounce: how often the path was scattered before. bShown: whether
 // only mirrors have scattered it.
@@ -199,14 +225,13 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 	for (;; ++Bounce)
 	{
 #ifdef HAS_TRANSMISSION
-#ifdef SCATTERS_BY_CELLS
-		Radiance += Throughput * Passages.Scattered;
-		Passages.Scattered = vec3(0.0);
-#elif defined(HAS_SCATTERING)
-		while (TakeScattering(Scene, Passages, Hit, Origin, Direction, Throughput, Pdf, Radiance, Bounce, MaxBounces, Random)) { NdotL = 0.0; }
+		if (PassVolume(Scene, Passages, Hit, Origin, Direction, Throughput, Pdf, Radiance, Bounce, MaxBounces, Random))
+		{
+			NdotL = 0.0; // paths alone find the sky from there
+			bShown = false;
+			Channels = AllChannels;
+		}
 		if (Throughput == vec3(0.0)) { return Radiance; }
-#endif
-		Throughput *= LeftByVolume(Passages, Hit);
 #endif
 		NOTE_END(Hit.Distance < 0.0 ? PATH_END_SKY : PATH_END_DARK);
 		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
@@ -235,30 +260,20 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		FBrdf Brdf = MakeBrdf(Hit);
 		vec3 LocalV = V * Basis;
 #ifdef RADIANCE_CELLS
-		vec3 Known;
-		float NearCells = Bounce == 1u ? RadianceNear : 0.0;
-		bool bLast = Bounce >= MaxBounces;
 #ifdef KEEPS_HIT
-		bool bLooksUp = bLast || !(bLightsHits && bMirrored);
+		bool bLooksUp = !(bLightsHits && bMirrored);
 #else
 		const bool bLooksUp = true;
 #endif
-		if (bLooksUp && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, bLast, ChooseLevel(Random), Known))
-		{
-			NOTE_END(bLast && IsMirror(Brdf) ? PATH_END_STAND_IN : PATH_END_CELL);
-			return Radiance + Throughput * Known;
-		}
-		Throughput *= TakeRadianceRest();
-		if (bLast || Throughput == vec3(0.0)) { return Radiance; }
-#ifdef DEFERS_PATHS
-		bRadianceDeferred = true;
-		return Radiance;
-#endif
+		if (EndsInCells(Hit, Brdf, P, Basis, LocalV, Bounce, MaxBounces, bLooksUp, Throughput, Radiance, Random)) { return Radiance; }
 #endif
 #ifdef HAS_CHARACTERS
 		bool bCharacter = (Hit.Flags & HIT_CHARACTER) != 0u;
 #else
 		const bool bCharacter = false;
+#endif
+#ifdef TINTED_SHADOWS
+		PlaceVolume = Passages.Volume;
 #endif
 		NOTE_LIT(Bounce);
 		uint Shows = bShown ? SHOWS_MIRRORED : SHOWS_NOTHING;
@@ -322,6 +337,9 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	Gathered.Radiance = vec3(0.0);
 	Gathered.Share = 0.0;
 	Gathered.Distance = -1.0;
+#endif
+#ifdef TINTED_SHADOWS
+	PlaceVolume = Air(); // none is known at the first vertex
 #endif
 	if (MaxBounces == 0u) { return Gathered; }
 	float Specular = SpecularProbability(Lobe, V); // 0 or 1

@@ -129,8 +129,12 @@ bool LookUpPlace(vec3 P, vec3 Ng, vec3 N, float RayLength, float U, out FCellLig
 	if (RadianceGrid == FAddress(0)) { return false; }
 	FRadianceGrid Grid = FRadianceGridRef(RadianceGrid).Data;
 	FRadianceQuery Query = FRadianceQuery(P, Ng, N, distance(P, RadianceCamera), RayLength, false, 0.0);
-	FRadianceVoter Voter = RadianceVoter;
-	RadianceVoter.Note = FAddress(0);
+	FRadianceVoter Voter = FRadianceVoter(FAddress(0), 0u, 0u);
+	if ((RadianceVoter.Hash & 0x10000u) != 0u) // what lies behind the place needs votes as well
+	{
+		Voter = RadianceVoter;
+		RadianceVoter.Note = FAddress(0);
+	}
 	if (!LookUpRadiance(Grid, Query, Voter, U, OutLight)) { return false; }
 #ifdef SMOOTH_RADIANCE
 	SmoothRadiance(Grid, Query, U, OutLight);

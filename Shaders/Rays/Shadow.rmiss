@@ -8,7 +8,7 @@ layout(location = 0) rayPayloadInEXT FShadowPayload Payload;
 void main()
 {
 #ifdef HAS_TRANSMISSION
-	Payload.BlockerDistance = -exp(-Payload.BlockerDistance);
+	Payload.BlockerDistance = -exp(BlockedAtUnknownDistance - Payload.BlockerDistance);
 #else
 	Payload.BlockerDistance = NotBlocked;
 #endif

@@ -54,21 +54,22 @@ float EtaOf(FMaterialHit Hit)
 
 // Whether light is found from a place within a volume, where it is scattered. The thread sets it before.
 bool bScattersThere = false;
+FVolume PlaceVolume = Air(); // that rays to lights start in, if it is known; of TINTED_SHADOWS. The thread sets it before
 
 // What remains of light along a ray that goes straight on through a hit. From: distance from the last such surface.
 //
-// Light bends as it enters a volume, whose surface counts as flat: its way within is shorter than the ray's. All that arrives on the surface
-// is then within a cone, and the eye sees 1 / index² of it, since rays leave through that cone alone. The rest is reflected within.
+// Light bends as it enters a volume, whose surface counts as flat: its way within is shorter than the ray's. It is within a cone then. Rays
+// leave through that cone alone, so the eye sees 1 / index² of it, and the rest is reflected within.
 vec3 StraightTransmittance(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, float From)
 {
-	float Cosine = abs(dot(Hit.Normal, Direction));
+	float Cosine = min(abs(dot(Hit.Normal, Direction)), 1.0);
 	bool bSolid = (Hit.Flags & HIT_SOLID) != 0u;
 	float R = bSolid ? Hit.Specular * mix(Hit.F0, 1.0, SchlickWeight(Cosine)) : InterfaceReflectance(Hit, Cosine, 1.0);
 	vec3 T = InterfaceTint(Hit) * (InterfaceShare(Hit) * (1.0 - R));
 	if (!bSolid) { return T; }
 	float Index = IndexOf(Hit.F0);
 	if ((Hit.Flags & HIT_INSIDE) == 0u) { return T * Index * Index; }
-	float Bent = sqrt(1.0 - (1.0 - Cosine * Cosine) / (Index * Index));
+	float Bent = sqrt(max(1.0 - (1.0 - Cosine * Cosine) / (Index * Index), 1.0e-4));
 	T *= exp(-VolumeOf(Scene, Hit).Extinction * From * Cosine / Bent) / (Index * Index);
 	return bScattersThere ? T * Cosine / Bent : T; // which lies in no surface, and has no cosine
 }

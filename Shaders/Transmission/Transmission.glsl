@@ -144,7 +144,15 @@ bool AddLayer(FSceneConstants Scene, FViewConstants View, FMaterialHit Hit, FCam
 	float Share = InterfaceShare(Hit), Reflected = InterfaceReflectance(Hit, abs(dot(Hit.Normal, Ray.Direction)), EtaOf(Hit));
 	bool bSheet = (Hit.Flags & HIT_SOLID) == 0u, bSmooth = PassesStraight(Hit);
 	// A camera in the volume.
-	if ((Hit.Flags & HIT_INSIDE) != 0u) { Shown.Through *= exp(-VolumeOf(Scene, Hit).Extinction * Hit.Distance); }
+	if ((Hit.Flags & HIT_INSIDE) != 0u)
+	{
+#ifdef SCATTERS_BY_CELLS
+		vec3 Extinction = SeenExtinction(VolumeOf(Scene, Hit));
+#else
+		vec3 Extinction = VolumeOf(Scene, Hit).Extinction;
+#endif
+		Shown.Through *= exp(-Extinction * Hit.Distance);
+	}
 	Shown.Light += Shown.Through * Hit.Emissive;
 	// One loop: paths are much code.
 	vec3 Weights = vec3(1.0 - Share, Share * Reflected, bSheet ? 0.0 : Share * (1.0 - Reflected));

@@ -77,6 +77,37 @@ TEST_F(FTransmissionPassTest, VolumesBendAndAbsorb)
 	EXPECT_NEAR(double(Picture.Pixels[3 * (16 * 32 + 16)]) / Expected, 1.0, 0.02) << "at the picture's middle";
 }
 
+/// A plate within a slab of glass keeps the sun from a floor. Rays to a sun without a disk run no closest-hit shader, and have met the
+/// slab's lower side when the plate ends them: light gets denser there, which must not count as light.
+TEST_F(FTransmissionPassTest, WhatLiesInGlassCastsShadows)
+{
+	for (const bool bPlate : {false, true})
+	{
+		FTestScene Scene("Plate");
+		const int32_t Glass = Scene.AddMaterial(MakeGlass(true)), White = Scene.AddLambert(glm::vec3(0.5f));
+		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(White, 4.0f)}));
+		FTestScene::FQuad Bottom = FTestScene::MakeFloor(Glass, 4.0f, 1.0f);
+		std::swap(Bottom.P[1], Bottom.P[3]); // its outside is below
+		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Glass, 4.0f, 2.0f), Bottom}));
+		if (bPlate)
+		{
+			FTestScene::FQuad Under = FTestScene::MakeFloor(White, 2.0f, 1.5f);
+			std::swap(Under.P[1], Under.P[3]);
+			Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(White, 2.0f, 1.5f), Under}));
+		}
+		ASSERT_TRUE(Load(Scene.Scene));
+		SetSky(glm::vec3(0));
+		SetSun(0.0, 4.0f, {0.0, -1.0, 0.0});
+		for (const char* const Path : {"1", "2"})
+		{
+			SetVariable("r.RT.Shadow.Path", Path);
+			const double Mean = MeanGreen(RenderLighting(LookAt({0, 0.6, 0.6}, {0, 0, 0}, glm::radians(5.0f), 16, 16)));
+			if (bPlate) { EXPECT_LT(Mean, 0.01) << Path; }
+			else { EXPECT_GT(Mean, 0.4) << Path; }
+		}
+	}
+}
+
 /// The pipeline and ray queries show the same, and what the reference does.
 TEST_F(FTransmissionPassTest, PicturesAgreeByEitherPathAndWithTheReference)
 {

@@ -16,7 +16,7 @@ constexpr double Pi = std::numbers::pi;
 
 double Phase(double Cosine, double G) { return (1.0 - G * G) / (4.0 * Pi * std::pow(1.0 + G * G - 2.0 * G * Cosine, 1.5)); }
 
-/// Of the surface from below, where light is reflected wholly at flat angles.
+/// Reflectance of the surface from below, where light is reflected wholly at flat angles.
 double ReflectanceFromBelow(double Index, double Cosine)
 {
 	const double Sine = Index * std::sqrt(1.0 - Cosine * Cosine);
@@ -27,7 +27,9 @@ class FWalk
 {
 public:
 	FWalk(const FWaterLayer& InLayer, double SunCosine)
-	    : Layer(InLayer), SunBelow(BendCosine(InLayer.Index, SunCosine)), Light(0.0, std::sqrt(1.0 - SunCosine * SunCosine), SunCosine)
+	    : Layer(InLayer),
+	      SunBelow(BendCosine(InLayer.Index, SunCosine)),
+	      Light(0.0, std::sqrt(1.0 - SunCosine * SunCosine), SunCosine)
 	{
 		SunStrength = (1.0 - WaterReflectance(Layer.Index, SunCosine)) / (Layer.Index * Layer.Index * SunBelow);
 	}

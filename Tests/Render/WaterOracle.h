@@ -1,4 +1,4 @@
-// Light in a layer of water over a black bed, by a simulation of its own in double precision: what tests of scattering are held against.
+// Light in a layer of water over a black bed, by a simulation in double precision. Tests of scattering are held against it.
 #pragma once
 
 #include <cstdint>

@@ -107,6 +107,24 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 	EXPECT_EQ(Data.LightEmissive, Data.Emissive) << "unless the material says otherwise";
 }
 
+TEST_F(FModuleSceneTest, ScatteringOutOfRangeIsRefused)
+{
+	const float NaN = std::numeric_limits<float>::quiet_NaN();
+	ERTMaterialHandle Handle = ERTMaterialHandle::None;
+	for (const float Value : {1.0f, -1.0f, NaN})
+	{
+		FRTModuleMaterial Water;
+		Water.ScatterAnisotropy = Value;
+		EXPECT_REFUSED(Renderer->AddMaterial(Water, &Handle), "ScatterAnisotropy");
+	}
+	for (const float Value : {1.5f, -0.5f, NaN})
+	{
+		FRTModuleMaterial Water;
+		Water.ScatterAlbedo[1] = Value;
+		EXPECT_REFUSED(Renderer->AddMaterial(Water, &Handle), "ScatterAlbedo[1]");
+	}
+}
+
 TEST_F(FModuleSceneTest, BlendedMaterialsAreMarkedUnlessLightShinesThroughThem)
 {
 	FRTModuleMaterial Smoke;

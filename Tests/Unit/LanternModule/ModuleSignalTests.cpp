@@ -455,9 +455,6 @@ TEST_F(FModuleSignalTest, ImpossibleMaterialsAreNamed)
 		Bad = {};
 		Bad.DiffuseTransmissionColor[2] = Value;
 		Refuse(Bad, "DiffuseTransmissionColor[2]");
-		Bad = {};
-		Bad.ScatterAlbedo[1] = Value;
-		Refuse(Bad, "ScatterAlbedo[1]");
 	}
 	FRTModuleMaterial Bad;
 	Bad.AlphaCutoff = NaN;
@@ -465,12 +462,6 @@ TEST_F(FModuleSignalTest, ImpossibleMaterialsAreNamed)
 	Bad = {};
 	Bad.Roughness = 1.5f;
 	Refuse(Bad, "Roughness must lie between 0 and 1, is 1.5");
-	Bad = {};
-	for (const float Value : {1.0f, -1.0f, NaN})
-	{
-		Bad.ScatterAnisotropy = Value;
-		Refuse(Bad, "ScatterAnisotropy");
-	}
 	EXPECT_REFUSED(Renderer->SetSky(nullptr), "the sky's radiance");
 	EXPECT_REFUSED(Renderer->SetObjectTransform(Object, nullptr), "transform");
 }

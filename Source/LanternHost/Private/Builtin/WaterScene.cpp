@@ -112,7 +112,7 @@ FSceneDescription BuildWaterScene(bool bScattering)
 	AddStones(Builder);
 	Builder.AddCamera({1.1, 2.4, 4.6}, {-0.5, 0.0, -2.0}, 55);
 	Builder.SetLight(glm::normalize(glm::vec3(-0.55f, -0.9f, -0.35f)), 9.0f, {0.55f, 0.72f, 1.0f});
-	Builder.Scene.DefaultExposure = 0.0f;
+	Builder.Scene.DefaultExposure = -0.7f;
 	return std::move(Builder.Scene);
 }
 

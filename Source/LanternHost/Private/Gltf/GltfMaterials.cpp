@@ -153,8 +153,8 @@ void ReadTransmission(FDocument& Document, FTextureTable& Table, const FJson& Js
 	Material.Extinction = glm::min(-glm::log(Color) / Distance, glm::vec3(Most));
 }
 
-/// What the volume scatters: the share of a single time, of the colour that all of it makes (Kulla & Conty 2017, with van de Hulst's similarity
-/// for volumes that scatter forward).
+/// What the volume scatters. The file has the colour that all scatterings make together. A single one is of Kulla & Conty 2017, and of van de
+/// Hulst's similarity where light is scattered forward.
 void ReadScattering(FDocument& Document, const FJson& Json, FHostMaterial& Material)
 {
 	const FJson Scatter = Json.Extension("KHR_materials_volume_scatter");
@@ -168,7 +168,8 @@ void ReadScattering(FDocument& Document, const FJson& Json, FHostMaterial& Mater
 	const float G = Scatter.GetFloat("scatterAnisotropy", 0.0f);
 	if (!(std::abs(G) < 1.0f)) { Scatter.Fail(fmt::format("scatterAnisotropy {} does not lie between -1 and 1", G)); }
 	const glm::vec3 Root = 4.09712f + 4.20863f * Color - glm::sqrt(9.59217f + 41.6808f * Color + 17.7126f * Color * Color);
-	Material.ScatterAlbedo = glm::clamp((1.0f - Root * Root) / (1.0f - G * Root * Root), 0.0f, 1.0f);
+	const glm::vec3 Albedo = glm::clamp((1.0f - Root * Root) / (1.0f - G * Root * Root), 0.0f, 1.0f);
+	Material.ScatterAlbedo = glm::mix(Albedo, glm::vec3(0), glm::equal(Color, glm::vec3(0))); // which the fit misses by little
 	Material.ScatterAnisotropy = G;
 }
 

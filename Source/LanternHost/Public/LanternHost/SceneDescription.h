@@ -68,8 +68,8 @@ struct FHostMaterial
 	glm::vec3 DiffuseTransmissionColor{1};
 	/// With Transmission: the surface of a volume, which bends and absorbs light. Else a thin sheet.
 	bool bSolid = false;
-	glm::vec3 Extinction{0};    ///< of what is solid: coefficient of what is absorbed and scattered, 1/m, ≥ 0
-	glm::vec3 ScatterAlbedo{0}; ///< share of it that is scattered, once, 0–1
+	glm::vec3 Extinction{0};        ///< of what is solid: coefficient of what is absorbed and scattered, 1/m, ≥ 0
+	glm::vec3 ScatterAlbedo{0};     ///< share of it that is scattered, once, 0–1
 	float ScatterAnisotropy = 0.0f; ///< mean cosine of the angle by which that turns light, −1 to 1 exclusive
 	EAlphaMode AlphaMode = EAlphaMode::Opaque;
 	bool bDoubleSided = false;

@@ -59,6 +59,12 @@ FAppearanceChange CompareAppearance(const FMaterialData& Old, const FMaterialDat
 		    GetChange(Old.DiffuseTransmissionColor * Old.DiffuseTransmission, New.DiffuseTransmissionColor * New.DiffuseTransmission) +
 		    GetMapChange(Old, New, TEXTURE_DIFFUSE_TRANSMISSION) + GetMapChange(Old, New, TEXTURE_DIFFUSE_TRANSMISSION_COLOR);
 	}
+	const glm::vec3 OldScattering = Old.Extinction * Old.ScatterAlbedo, NewScattering = New.Extinction * New.ScatterAlbedo;
+	if (OldScattering != glm::vec3(0) || NewScattering != glm::vec3(0))
+	{
+		Reflected += GetChange(OldScattering, NewScattering) + GetChange(Old.Extinction, New.Extinction) +
+		             std::abs(double(New.ScatterAnisotropy) - double(Old.ScatterAnisotropy));
+	}
 	return {std::min(Reflected + std::abs(double(New.Metallic) - double(Old.Metallic)), 1.0), 0.0};
 }
 
