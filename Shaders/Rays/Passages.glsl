@@ -11,7 +11,7 @@ struct FPassages
 {
 	FVolume Volume; // that the path is in
 	float Slope;    // cosine of the path's last part against the surface by which it has entered that
-	uint Left;       // surfaces that it may still meet
+	uint Left;      // surfaces that it may still meet
 	// Since it was last scattered, or reflected by such a surface:
 	float Length;        // of what it has passed
 	float EmissionShare; // of emitters that light sampling lists

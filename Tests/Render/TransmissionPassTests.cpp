@@ -81,7 +81,7 @@ TEST_F(FTransmissionPassTest, VolumesBendAndAbsorb)
 /// slab's lower side when the plate ends them: light gets denser there, which must not count as light.
 TEST_F(FTransmissionPassTest, WhatLiesInGlassCastsShadows)
 {
-	for (const bool bPlate : {false, true})
+	for (const float Height : {0.0f, 1.05f, 1.5f, 1.95f}) // 0: without a plate. Which surface a ray meets first is the driver's choice
 	{
 		FTestScene Scene("Plate");
 		const int32_t Glass = Scene.AddMaterial(MakeGlass(true)), White = Scene.AddLambert(glm::vec3(0.5f));
@@ -89,11 +89,12 @@ TEST_F(FTransmissionPassTest, WhatLiesInGlassCastsShadows)
 		FTestScene::FQuad Bottom = FTestScene::MakeFloor(Glass, 4.0f, 1.0f);
 		std::swap(Bottom.P[1], Bottom.P[3]); // its outside is below
 		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Glass, 4.0f, 2.0f), Bottom}));
+		const bool bPlate = Height > 0.0f;
 		if (bPlate)
 		{
-			FTestScene::FQuad Under = FTestScene::MakeFloor(White, 2.0f, 1.5f);
+			FTestScene::FQuad Under = FTestScene::MakeFloor(White, 2.0f, Height);
 			std::swap(Under.P[1], Under.P[3]);
-			Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(White, 2.0f, 1.5f), Under}));
+			Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(White, 2.0f, Height), Under}));
 		}
 		ASSERT_TRUE(Load(Scene.Scene));
 		SetSky(glm::vec3(0));
