@@ -123,8 +123,7 @@ FBrdf MakeGBufferBrdf(vec4 BaseColor, vec4 Material)
 	Brdf.Alpha = Material.x * Material.x;
 	Brdf.F0 = Material.z * Material.z;
 	Brdf.Specular = Material.w;
-	Brdf.Diffuse = 1.0;
-	return MakeFrontLobes(Brdf);
+	return Brdf;
 }
 
 // Texture: sampled index of FGBuffer::BackAlbedo, or NO_TEXTURE. Returns FBrdf::BackAlbedo, and in a what the Lambert base loses to it.

@@ -121,7 +121,6 @@ FBrdf MakeBrdf(FMaterialHit Hit)
 	Brdf.Alpha = Hit.Roughness * Hit.Roughness;
 	Brdf.F0 = Hit.F0;
 	Brdf.Specular = Hit.Specular;
-	Brdf.Diffuse = 1.0;
 #ifdef HAS_DIFFUSE_TRANSMISSION
 	Brdf.Diffuse -= Hit.DiffuseTransmission;
 	Brdf.BackAlbedo = Hit.BackAlbedo;

@@ -106,7 +106,6 @@ vec3 FollowPart(FSceneConstants Scene, uint Part, FMaterialHit Hit, FCameraRay R
 		Origin = PathStart = OffsetRayOrigin(Origin + Direction * Hit.Distance, Side, Scene.ObjectReach, Hit.Distance);
 		Direction = Passage.Direction;
 		bool bInside = (Hit.Flags & HIT_INSIDE) != 0u;
-		FirstVolume = Air();
 		if (Passage.bThrough != bInside) { FirstVolume = VolumeOf(Scene, Hit); }
 		FirstSlope = abs(dot(Direction, Hit.GeometricNormal));
 		float Alpha = Hit.Roughness * Hit.Roughness;
