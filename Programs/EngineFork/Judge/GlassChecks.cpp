@@ -71,7 +71,7 @@ FError Compare(const FForkScene& Scene, const std::vector<double>& Without, cons
 		Outside += Part == EPanePart::Outside;
 	}
 	std::printf("glass: %u pixels behind it, %u beside it\n", Inside, Outside);
-	return Inside > 3000 && Outside > 10000 ? FError() : "too little of the pane to judge it";
+	return Inside > PixelCount / 20 && Outside > PixelCount / 6 ? FError() : "too little of the pane to judge it";
 }
 
 } // namespace

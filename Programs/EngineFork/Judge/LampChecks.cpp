@@ -76,7 +76,7 @@ FError CheckLamp(FJudge& Judge)
 namespace
 {
 
-constexpr uint32_t Stride = 16; // pixels between those that CheckSquareLamp asks
+constexpr uint32_t Stride = 12; // pixels between those that CheckSquareLamp asks
 
 /// Adds the light of some pixels of a view up, over frames without jitter and over the grey of surfaces.
 FError AddSomeLight(FJudge& Judge, const std::vector<uint32_t>& Pixels, double& Out)
@@ -146,7 +146,7 @@ FError CheckLightMask(FJudge& Judge)
 			Shadowed += Pixel.Shadow == EExpectation::Shadowed && Pixel.Light > 0.0;
 		}
 		std::printf("light mask, view %u: the lamp lights %u pixels, and is hidden from %u\n", View, Lit, Shadowed);
-		if (Error.empty() && (Lit < 5000 || Shadowed < 500)) { Error = "too little of the lamp to judge it"; }
+		if (Error.empty() && (Lit < PixelCount / 12 || Shadowed < PixelCount / 120)) { Error = "too little of the lamp to judge it"; }
 	}
 	Plugin.bLightMask = false;
 	Error = RemoveLamp(Judge, Error);

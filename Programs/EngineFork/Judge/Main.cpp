@@ -55,17 +55,17 @@ bool ParseOption(const std::string& Name, const std::string& Value, FOptions& Ou
 }
 
 /// The device and all that lives on it are gone when this returns.
-int RunOnInstance(IRTModule& Module, const FForkInstance& Instance, const FOptions& Options)
+int RunOnInstance(IRTModule& Module, const FForkInstance& Instance, const FOptions& Options, bool bChanges)
 {
 	const FForkScene Scene = MakeScene(At(Options.Offset.x, Options.Offset.y, Options.Offset.z));
 	FForkEngine Engine(Module, Instance);
 	if (const FError Error = Engine.CreateDevice(); !Error.empty()) { return Complain(NoDevice, Error); }
 	FError Error = Engine.LoadScene(Scene);
-	if (Error.empty()) { Error = CheckScenes(Engine, Scene, Options.Pictures); }
+	if (Error.empty()) { Error = CheckScenes(Engine, Scene, Options.Pictures, bChanges); }
 	return Error.empty() ? Done : Complain(CheckFailed, Error);
 }
 
-int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOptions& Options)
+int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOptions& Options, bool bChanges)
 {
 	FError Error = InitializeModule(Module, Manifest, Options.Settings);
 	if (!Error.empty()) { return Complain(CheckFailed, Error); }
@@ -76,7 +76,7 @@ int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOpt
 	{
 		std::fprintf(stderr, "EngineFork: the Vulkan validation layer is not installed: wrong use goes unseen\n");
 	}
-	const int Exit = RunOnInstance(Module, Instance, Options);
+	const int Exit = RunOnInstance(Module, Instance, Options, bChanges);
 	if (Instance.ValidationMessages != 0) // includes those about objects that outlived the device
 	{
 		return Complain(CheckFailed, std::to_string(Instance.ValidationMessages) + " validation messages");
@@ -84,8 +84,8 @@ int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOpt
 	return Exit;
 }
 
-/// Loads the plugin, renders, judges, and unloads the plugin.
-int RunRound(const FPluginManifest& Manifest, const FOptions& Options)
+/// Loads the plugin, renders, judges, and unloads the plugin. bChanges: also what changes in the scene.
+int RunRound(const FPluginManifest& Manifest, const FOptions& Options, bool bChanges)
 {
 	FPluginLibrary Library;
 	FError Error = Library.Load(Manifest, Options.LibraryFolder);
@@ -93,7 +93,7 @@ int RunRound(const FPluginManifest& Manifest, const FOptions& Options)
 	if (Error.empty()) { Error = Library.CreateModule(Module); }
 	if (!Error.empty()) { return Complain(CheckFailed, Error); }
 	std::printf("plugin: %s %s\n", Show(Manifest.Name).c_str(), Module->GetVersionString());
-	const int Exit = RunWithModule(*Module, Manifest, Options);
+	const int Exit = RunWithModule(*Module, Manifest, Options, bChanges);
 	Module.Reset();
 	if (!Library.Unload()) { return Complain(CheckFailed, "the library is still in the process after unloading"); }
 	return Exit;
@@ -115,6 +115,6 @@ int main(int Count, char** Arguments)
 	FPluginManifest Manifest;
 	if (const FError Error = ReadManifest(Options.Plugin, Manifest); !Error.empty()) { return Complain(CheckFailed, Error); }
 	int Exit = Done;
-	for (int Round = 0; Exit == Done && Round < Options.Rounds; ++Round) { Exit = RunRound(Manifest, Options); }
+	for (int Round = 0; Exit == Done && Round < Options.Rounds; ++Round) { Exit = RunRound(Manifest, Options, Round == 0); }
 	return Exit;
 }
