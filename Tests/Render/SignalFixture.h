@@ -10,6 +10,9 @@ namespace Lantern
 
 class FSignalTest : public FRenderTest
 {
+public:
+	static constexpr uint32_t ShallowDivisor = 4;
+
 protected:
 	/// Whether a frame has it.
 	bool HasSignal(ESignal Signal, const FView& View);
@@ -21,7 +24,8 @@ protected:
 	/// Mean of the green channel, from Batches means of Count frames with seeds of their own.
 	FEstimate EstimateFrames(ESignal Signal, const FView& View, uint32_t Count, uint32_t Batches = 8);
 	/// Holds frames against the reference of the same signal: their means agree within Tolerance and three times what
-	/// repetitions scatter, and so do means of blocks, at the median. All of it relative to the reference.
+	/// repetitions scatter, and so do means of blocks, at the median. All of it relative to the reference. Unless LANTERN_TEST_DEEP is set,
+	/// a ShallowDivisor-th of Frames and Samples is rendered: noise is then twice as high, and faults must be larger to show.
 	void ExpectUnbiased(
 	    const char* What, ESignal Signal, const FView& View, uint32_t Frames, uint32_t Samples, uint32_t Bounces, double Tolerance);
 	/// Everything that paths can make, at this many samples and bounces.
