@@ -9,7 +9,7 @@ namespace Fork
 {
 
 /// Extent of a view. The views lie side by side in the engine's textures.
-inline constexpr VkExtent2D ViewSize{240, 135};
+inline constexpr VkExtent2D ViewSize{320, 180};
 inline constexpr uint32_t ViewCount = static_cast<uint32_t>(std::tuple_size_v<decltype(FForkScene::Cameras)>);
 inline constexpr VkExtent2D TextureSize{ViewSize.width * ViewCount, ViewSize.height};
 inline VkOffset2D GetViewOffset(uint32_t View) { return {static_cast<int32_t>(View * ViewSize.width), 0}; }

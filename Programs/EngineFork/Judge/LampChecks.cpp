@@ -76,7 +76,7 @@ FError CheckLamp(FJudge& Judge)
 namespace
 {
 
-constexpr uint32_t Stride = 12; // pixels between those that CheckSquareLamp asks
+constexpr uint32_t Stride = 16; // pixels between those that CheckSquareLamp asks
 
 /// Adds the light of some pixels of a view up, over frames without jitter and over the grey of surfaces.
 FError AddSomeLight(FJudge& Judge, const std::vector<uint32_t>& Pixels, double& Out)
