@@ -12,6 +12,7 @@
 #endif
 #include "Chart/ChartCommand.h"
 #include "Commands/CompareCommand.h"
+#include "Commands/Explain.h"
 #include "Commands/InfoCommand.h"
 #include "Commands/RenderCommand.h"
 #include "LanternCore/Text/Log.h"
@@ -93,6 +94,10 @@ void FCommandLine::AddRender()
 	    ->check(CLI::IsMember({"slow", "fast"}));
 	Command->add_flag("--list", bList, "List the built-in scenes");
 	Command->add_flag("--dump-graph", Render.bDumpGraph, "Print the last frame's passes, resources and barriers");
+	Command
+	    ->add_option("--explain", Render.Explain,
+	        "X,Y of a pixel: print the signals of the last frame there, the radiance cells that a path's end would try, and the light cell")
+	    ->check([](const std::string& Text) { return ParsePixel(Text) ? std::string() : Quote(Text) + " is not X,Y of a pixel"; });
 	Command->final_callback([this] { Status = bList ? RunListScenes() : RunRender(Render); });
 }
 

@@ -2,7 +2,7 @@
 // darker the fewer updates it has had. Coarse ones that stand in are grey, and what has none is black. bLight: their light instead.
 #version 460
 #include "../Library/GBuffer.glsl"
-#include "../Library/RadianceCells.glsl"
+#include "Chain.glsl"
 
 layout(local_size_x = RADIANCE_CELL_VIEW_GROUP, local_size_y = RADIANCE_CELL_VIEW_GROUP) in;
 layout(push_constant, scalar) uniform FPush { FRadianceCellViewConstants Push; };
@@ -19,15 +19,14 @@ FSeenCell FindCell(FRadianceGrid Grid, vec3 Position, vec3 Normal, float FromCam
 	ivec3 Steps = ToRadianceSteps(Grid, Position);
 	uint Level = RadianceLevel(Grid, FromCamera, 0.5);
 	FSeenCell Unknown = FSeenCell(NO_RADIANCE_CELL, 0u, false);
-	for (uint I = 0u; I < 4u; ++I) // thin and thick, then coarse
+	for (uint I = 0u; I < RadianceChain; ++I)
 	{
-		bool bThick = (I & 1u) != 0u, bCoarse = I >= 2u, bFull;
-		uint Its = min(bCoarse ? Level + RADIANCE_CELL_COARSER : Level, RADIANCE_CELL_LEVELS - 1u);
-		FRadianceKey Key = MakeRadianceKey(Grid, Steps, Its, bCoarse, Normal, bThick);
-		uint Slot = FindRadianceCell(Grid, Key, bFull);
+		bool bFull;
+		FRadianceLink Link = MakeRadianceLink(Grid, Steps, Level, Normal, I);
+		uint Slot = FindRadianceCell(Grid, Link.Key, bFull);
 		if (Slot == NO_RADIANCE_CELL) { continue; }
-		FSeenCell Seen = FSeenCell(Slot, Key.Check, bCoarse);
-		if (RadianceCellCount(FRadianceCellRef(Grid.Cells).Data[Slot].State) >= (bCoarse ? LeastCoarseCount : 1u)) { return Seen; }
+		FSeenCell Seen = FSeenCell(Slot, Link.Key.Check, Link.bCoarse);
+		if (IsLinkKnown(Link, FRadianceCellRef(Grid.Cells).Data[Slot])) { return Seen; }
 		if (Unknown.Slot == NO_RADIANCE_CELL) { Unknown = Seen; }
 	}
 	return Unknown;

@@ -71,6 +71,7 @@ TEST(MessageTest, BrokenArguments)
 	    {"render", "--quality", Worse},
 	    {"render", "--set", Worse},
 	    {"render", "--device", Worse},
+	    {"render", "--explain", Worse},
 	    {"reference", "--signal", Worse},
 	    {"compare", "a", "b", "--heatmap", Worse},
 	    {"chart", "-o", Worse},

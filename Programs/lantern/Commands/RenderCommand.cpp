@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "Commands/Explain.h"
 #include "JsonFile.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/FrameGraph/History.h"
@@ -218,6 +219,7 @@ public:
 	std::optional<bool> IsSettled() const { return Settled; }
 	const FSettling& GetSettling() const { return Settling; }
 	const FFigures& GetFigures() const { return Figures; }
+	const FCapturedFrame& GetFrame() const { return Frame; }
 	const FImage& GetPicture() const { return Frame.Display.IsEmpty() ? Frame.Lighting : Frame.Display; }
 
 private:
@@ -230,6 +232,7 @@ private:
 		FFrameCapture Capture;
 		Capture.bDisplay = bPicture && IsDisplayOutput(Options.Picture.Output);
 		Capture.bLighting = bSettle || (bPicture && !Capture.bDisplay);
+		if (bPicture && !Options.Explain.empty()) { Capture.Signals = GetExplainedSignals(); }
 		FSampleEngine& Engine = Session.GetEngine();
 		const FView& At = Way.empty() ? View : Way[Done].View;
 		const double Time = Way.empty() ? Options.Picture.Time : Way[Done].Time;
@@ -267,6 +270,13 @@ int RunRender(FRenderOptions Options)
 		LogError("--path needs --frames of {} or more", FewestPathFrames);
 		return ExitUsage;
 	}
+	const std::optional<glm::uvec2> Pixel = ParsePixel(Options.Explain);
+	if (Pixel && (Pixel->x >= Options.Picture.Width || Pixel->y >= Options.Picture.Height))
+	{
+		LogError(
+		    "--explain: {} lies outside of the picture, which is {}x{}", Options.Explain, Options.Picture.Width, Options.Picture.Height);
+		return ExitUsage;
+	}
 	if (const double Least = Options.Frames * double(FPathSettings().DeltaSeconds); !Options.Path.empty() && Options.Picture.Time < Least)
 	{
 		LogInfo("--path: the last frame is at --time {:.2f}, so that the first is not before 0", Least);
@@ -279,18 +289,31 @@ int RunRender(FRenderOptions Options)
 	if (const int Status = Session.LoadScene(Options.Picture); Status != ExitDone) { return Session.Close(Status); }
 	Session.GetEngine().GetRenderer().SetGraphDump(Options.bDumpGraph);
 	Session.GetEngine().bPresent = true; // what accumulates over frames needs them all, and their times are what is reported
+	FFrameCapture Precached;
+	if (Pixel)
+	{
+		Precached.Signals = GetExplainedSignals();
+		FConsoleVariables::Get().Set("r.RT.Debug.Explain", Options.Explain, ERTSetBy::CommandLine, "--explain");
+	}
 	FConsoleVariables::Get().BeginFrame();
 	FProgressLine Compiling;
 	const auto ShowProgress = [&](float Fraction) { Compiling.Show("shaders", Fraction); };
-	if (FRTStatus S = Session.GetEngine().Precache({}, ShowProgress); !S) { return Session.Close(ReportStatus(S, "shaders")); }
+	if (FRTStatus S = Session.GetEngine().Precache(Precached, ShowProgress); !S) { return Session.Close(ReportStatus(S, "shaders")); }
 	Compiling.Clear();
 	FFrameLoop Loop(Session, Options);
 	int Status = Loop.Run();
 	if (Status == ExitDone)
 	{
 		Options.Frames = Loop.GetFrameCount();
-		const nlohmann::json Json = MakeJson(Session, Options, Loop.GetFigures(), Loop.IsSettled());
+		nlohmann::json Json = MakeJson(Session, Options, Loop.GetFigures(), Loop.IsSettled());
 		PrintTable(Json);
+		if (Pixel)
+		{
+			FRenderer& Renderer = Session.GetEngine().GetRenderer();
+			if (FRTStatus S = Renderer.WaitForAll(); !S) { return Session.Close(ReportStatus(S, "--explain")); }
+			Json["explanation"] = ExplanationToJson(*Pixel, Loop.GetFrame(), Renderer.GetPixelExplanation());
+			PrintExplanation(Json["explanation"]);
+		}
 		if (Options.bDumpGraph) { fmt::print("{}", Session.GetEngine().GetRenderer().DumpGraph()); }
 		Status = WriteOutputs(Options.Picture, Loop.GetPicture(), Json);
 		const double Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count();

@@ -14,6 +14,7 @@ struct FRenderOptions
 	uint32_t Frames = 0;
 	std::string Path; ///< a name that FindPath knows: the camera comes along it, and the last frame is at the view. Empty: it stands still
 	bool bDumpGraph = false;
+	std::string Explain; ///< X,Y of a pixel whose light is explained in the last frame; empty: none
 };
 int RunRender(FRenderOptions Options);
 

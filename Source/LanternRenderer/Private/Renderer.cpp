@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "Feedback/AnyHitCounter.h"
+#include "Feedback/PixelExplainer.h"
 #include "Feedback/RadianceCellCounter.h"
 #include "Feedback/ReflectionCounter.h"
 #include "Feedback/StandInFeedback.h"
@@ -60,6 +61,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       CellCounter(std::make_unique<FRadianceCellCounter>(InDevice)),
       ReflectionCounter(std::make_unique<FReflectionCounter>(InDevice)),
+      Explainer(std::make_unique<FPixelExplainer>(InDevice)),
       Sky(std::make_unique<FSkyBake>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice)),
@@ -88,6 +90,7 @@ FRTStatus FRenderer::WaitForAll()
 	AnyHits->TakeAll();
 	CellCounter->TakeAll();
 	ReflectionCounter->TakeAll();
+	Explainer->TakeAll();
 	RayCounter->TakeAll();
 	return FRTStatus::Success();
 }
@@ -95,6 +98,7 @@ FRTStatus FRenderer::WaitForAll()
 const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
 const FRadianceCellCounts& FRenderer::GetRadianceCells() const { return CellCounter->Get(); }
 const FReflectionCounts& FRenderer::GetReflectionCounts() const { return ReflectionCounter->Get(); }
+const FPixelExplanation& FRenderer::GetPixelExplanation() const { return Explainer->Get(); }
 const FRayCounts& FRenderer::GetRayCounts() const { return RayCounter->Get(); }
 
 FRTStatus FRenderer::WaitForFlight()
@@ -379,6 +383,7 @@ void FRenderer::BeginFeedback()
 	AnyHits->BeginFrame(FlightIndex);
 	CellCounter->BeginFrame(FlightIndex);
 	ReflectionCounter->BeginFrame(FlightIndex);
+	Explainer->BeginFrame(FlightIndex);
 	StandIns->BeginFrame(FlightIndex, Context->Scene);
 	QueueDemand->BeginFrame(FlightIndex);
 	State->LightCells->BeginFrame(FlightIndex);
@@ -392,6 +397,7 @@ void FRenderer::StartCounting()
 	FRTStatus Status = AnyHits->Start();
 	if (Status) { Status = CellCounter->Start(AreRadianceCellsCounted()); }
 	if (Status) { Status = ReflectionCounter->Start(ArePathEndsCounted()); }
+	if (Status) { Status = Explainer->Start(GetExplainedPixel().has_value()); }
 	if (Status && bStandIns) { Status = StandIns->Start(Context->Scene, Context->View.Position); }
 	if (!Status) { LogOnce(ERTLogLevel::Warning, std::string("rays are not counted: ") + Status.Message); }
 	AnyHits->GetCounters().AddClear(*Graph);
@@ -399,6 +405,8 @@ void FRenderer::StartCounting()
 	Context->RadianceCellStatistics = CellCounter->GetCounters().GetAddress();
 	ReflectionCounter->GetCounters().AddClear(*Graph);
 	Context->ReflectionStatistics = ReflectionCounter->GetCounters().GetAddress();
+	Explainer->GetCounters().AddClear(*Graph);
+	Context->ExplainedPixel = Explainer->GetCounters().GetAddress();
 	StandIns->GetCounters().AddClear(*Graph);
 }
 
@@ -407,6 +415,7 @@ void FRenderer::EndFeedback(bool bSubmitted)
 	AnyHits->GetCounters().EndFrame(bSubmitted);
 	CellCounter->GetCounters().EndFrame(bSubmitted);
 	ReflectionCounter->GetCounters().EndFrame(bSubmitted);
+	Explainer->GetCounters().EndFrame(bSubmitted);
 	StandIns->GetCounters().EndFrame(bSubmitted);
 	QueueDemand->EndFrame(bSubmitted);
 	State->LightCells->EndFrame(bSubmitted);

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "Feedback/AnyHitCounter.h"
+#include "Feedback/PixelExplainer.h"
 #include "Feedback/RadianceCellCounter.h"
 #include "Feedback/ReflectionCounter.h"
 #include "Feedback/StandInFeedback.h"
@@ -53,6 +54,7 @@ FRTStatus FRenderer::Execute(const std::function<FRTStatus()>& Run)
 	AnyHits->GetCounters().AddRead(*Graph);
 	CellCounter->GetCounters().AddRead(*Graph);
 	ReflectionCounter->GetCounters().AddRead(*Graph);
+	Explainer->GetCounters().AddRead(*Graph);
 	StandIns->GetCounters().AddRead(*Graph);
 	FRTStatus Status = FrameStatus;
 	if (Status)

@@ -9,6 +9,7 @@
 #include "Lights/LightCells.h"
 #include "MovedShare/MovedShare.h"
 #include "RadianceCells/RadianceCells.h"
+#include "RadianceCells/Explain.h"
 #include "RadianceCells/RadianceCellsView.h"
 #include "Reflections/Reflections.h"
 #include "SignalPasses.h"
@@ -160,6 +161,7 @@ const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 	Lobes.Diffuse = AddToonGrade(Context, GBuffer, Lobes.Diffuse, bHorizon, Denoise.IsEnabled());
 	Context.IndirectLobes = Lobes;
 	AddRadianceCellsView(Context, GBuffer);
+	AddExplainPass(Context, GBuffer);
 	return *Context.IndirectLobes;
 }
 } // namespace
@@ -167,7 +169,11 @@ const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 FPassRays ChooseDiffuseGIRays(const FPassQuery& Query)
 {
 	FPassRays Rays = ChooseBruteForceRays(BruteForce, Query);
-	if (Rays.bRadianceCells) { ListRadianceCellsViewShaders(Rays.Compute); }
+	if (Rays.bRadianceCells)
+	{
+		ListRadianceCellsViewShaders(Rays.Compute);
+		ListExplainShaders(Rays.Compute);
+	}
 	if (Rays.Path != ERayPath::None) { ListToonShaders(Query.Facts, false, Rays.Compute); }
 	if (Rays.Path != ERayPath::None && IsHalfWanted()) { ListHalfFrameShaders(Query.Facts, IsPair(Query), Rays.Compute); }
 	return Rays;

@@ -236,6 +236,7 @@ struct FFrameContext : FPixelsOfFrame
 	FRadianceEvents* RadianceEvents = nullptr; ///< what has changed indirect light
 	uint64_t RadianceCellStatistics = 0;       ///< address of FRadianceCellStatistics; 0: nothing is counted
 	uint64_t ReflectionStatistics = 0;         ///< address of FReflectionStatistics; 0: nothing is counted
+	uint64_t ExplainedPixel = 0;               ///< address of FExplainedPixel; 0: none is explained
 	FRayQueueCounter* RayCounter = nullptr;
 	/// What the host hands over beside its G-buffer, before it adds passes. Frames without FFrameFeatures::bHostShadow do not read it.
 	FHostShadow HostShadow;

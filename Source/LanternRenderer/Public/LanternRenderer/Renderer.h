@@ -89,6 +89,7 @@ class FAnyHitCounter;
 class FHistoryResources;
 class FLightCells;
 class FMovedCasters;
+class FPixelExplainer;
 class FRadianceCellCounter;
 class FRadianceEvents;
 class FRayQueueCounter;
@@ -98,6 +99,7 @@ class FRefitQuality;
 class FSkyBake;
 class FRenderer;
 class FStandInFeedback;
+struct FPixelExplanation;
 struct FRayPrograms;
 
 /// What an engine's frame submits ahead of the engine's list.
@@ -175,6 +177,7 @@ public:
 	const FRayCounts& GetRayCounts() const;
 	const FRadianceCellCounts& GetRadianceCells() const;
 	const FReflectionCounts& GetReflectionCounts() const;
+	const FPixelExplanation& GetPixelExplanation() const;
 	/// Makes executed frames leave a text for DumpGraph. Off by default, because it takes longer than the graph itself.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
 	const std::string& DumpGraph() const { return LastDump; } ///< the last executed frame, as text
@@ -217,6 +220,7 @@ private:
 	std::unique_ptr<FAnyHitCounter> AnyHits;
 	std::unique_ptr<FRadianceCellCounter> CellCounter;
 	std::unique_ptr<FReflectionCounter> ReflectionCounter;
+	std::unique_ptr<FPixelExplainer> Explainer;
 	std::unique_ptr<FSkyBake> Sky;
 	FMaterialPrograms Programs;
 	FRTPSOCompiler RayCompiler;

@@ -1,0 +1,28 @@
+// lantern render --explain X,Y
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include "LanternHost/SampleEngine.h"
+#include "LanternRenderer/PixelExplanation.h"
+
+namespace Lantern
+{
+
+/// Returns a pixel from a text of the form X,Y.
+std::optional<glm::uvec2> ParsePixel(const std::string& Text);
+
+/// Signals that a frame is made of, and that an explanation lists.
+FSignalSet GetExplainedSignals();
+
+/// What is known of a pixel: the values of Frame's signals there, and Explanation. Lengths are metres, light is in units of radiance.
+nlohmann::json ExplanationToJson(glm::uvec2 Pixel, const FCapturedFrame& Frame, const FPixelExplanation& Explanation);
+
+/// Prints what ExplanationToJson made.
+void PrintExplanation(const nlohmann::json& Json);
+
+} // namespace Lantern
