@@ -126,7 +126,7 @@ TEST_F(FEmittersTest, PanelsAsTheReference)
 }
 
 // Few lamps have rays of their own beside that of the triangle; many are chosen from together with triangles.
-TEST_F(FEmittersTest, BesideLampsAsTheReference)
+TEST_F(FEmittersSlowTest, BesideLampsAsTheReference)
 {
 	for (const uint32_t Count : {3u, 16u})
 	{
@@ -136,7 +136,7 @@ TEST_F(FEmittersTest, BesideLampsAsTheReference)
 	}
 }
 
-TEST_F(FEmittersTest, ThousandsAsTheReference)
+TEST_F(FEmittersSlowTest, ThousandsAsTheReference)
 {
 	FTestScene Scene = MakeStage();
 	AddCandles(Scene, 40);
@@ -195,7 +195,7 @@ TEST_F(FEmittersTest, DimLightIsNotFilteredAway)
 }
 
 // What the alpha test cuts away does not shine, and both sides do.
-TEST_F(FEmittersTest, HalfCutPanelAsTheReference)
+TEST_F(FEmittersSlowTest, HalfCutPanelAsTheReference)
 {
 	FTestScene Scene = MakeStage();
 	const int32_t Half = Scene.AddHalfCutLambert();

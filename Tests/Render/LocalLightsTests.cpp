@@ -39,8 +39,10 @@ TEST_F(FLocalLightsTest, FewAndManyAsTheReference)
 	}
 }
 
+using FLocalLightsDeepTest = FLocalLightsTest;
+
 // A tile weighs a random part of its lights if they are more than its table holds.
-TEST_F(FLocalLightsTest, MoreThanATableHoldsAsTheReference)
+TEST_F(FLocalLightsDeepTest, MoreThanATableHoldsAsTheReference)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadPosts());
 	const FView View = LookAtPosts(48, 27);

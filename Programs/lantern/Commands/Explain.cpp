@@ -11,9 +11,6 @@ namespace Lantern
 
 namespace
 {
-constexpr ESignal ExplainedSignals[] = {
-    ESignal::SunShadow, ESignal::LocalDiffuse, ESignal::LocalSpecular, ESignal::DiffuseGI, ESignal::RoughSpecular, ESignal::Reflections};
-
 nlohmann::json ToJson(glm::vec3 V) { return {V.x, V.y, V.z}; }
 
 template <class T>
@@ -65,7 +62,10 @@ std::optional<glm::uvec2> ParsePixel(const std::string& Text)
 FSignalSet GetExplainedSignals()
 {
 	FSignalSet Signals;
-	for (const ESignal Signal : ExplainedSignals) { Signals.Add(Signal); }
+	for (const FSignalInfo& Info : SignalInfos)
+	{
+		if (Info.Signal != ESignal::Frame) { Signals.Add(Info.Signal); }
+	}
 	return Signals;
 }
 
@@ -74,11 +74,11 @@ nlohmann::json ExplanationToJson(glm::uvec2 Pixel, const FCapturedFrame& Frame, 
 	nlohmann::json Json;
 	Json["pixel"] = {Pixel.x, Pixel.y};
 	Json["signals"] = nlohmann::json::object();
-	for (const ESignal Signal : ExplainedSignals)
+	for (const FSignalInfo& Info : SignalInfos)
 	{
-		const FImage& Image = Frame.Get(Signal);
-		if (Pixel.x >= Image.Width || Pixel.y >= Image.Height) { continue; }
-		nlohmann::json& Values = Json["signals"][GetSignalInfo(Signal).Name] = nlohmann::json::array();
+		const FImage& Image = Frame.Get(Info.Signal);
+		if (Pixel.x >= Image.Width || Pixel.y >= Image.Height) { continue; } // the frame has no such signal
+		nlohmann::json& Values = Json["signals"][Info.Name] = nlohmann::json::array();
 		for (uint32_t Channel = 0; Channel < Image.Channels; ++Channel) { Values.push_back(Image.At(Pixel.x, Pixel.y, Channel)); }
 	}
 	Json["explained"] = Explanation.Frames > 0;

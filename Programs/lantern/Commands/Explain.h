@@ -16,7 +16,7 @@ namespace Lantern
 /// Returns a pixel from a text of the form X,Y.
 std::optional<glm::uvec2> ParsePixel(const std::string& Text);
 
-/// Signals that a frame is made of, and that an explanation lists.
+/// Signals that an explanation lists: all but the whole frame.
 FSignalSet GetExplainedSignals();
 
 /// What is known of a pixel: the values of Frame's signals there, and Explanation. Lengths are metres, light is in units of radiance.

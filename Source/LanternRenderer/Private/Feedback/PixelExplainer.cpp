@@ -15,9 +15,8 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<std::string> CVarExplain("r.RT.Debug.Explain", "",
-    "Pixel whose light is explained, as X,Y from the upper left corner: the radiance cells that a path's end would try there, and its "
-    "light "
-    "cell. lantern render --explain prints it. Empty: none.");
+    "Pixel whose light is explained, as X,Y from the upper left corner. Looks up the radiance cells that a path's end would try there, and "
+    "the light cell. Empty: none.");
 
 std::optional<uint32_t> Known(uint32_t Number)
 {

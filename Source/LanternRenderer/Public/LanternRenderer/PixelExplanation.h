@@ -23,7 +23,7 @@ struct FExplainedRadianceCell
 	glm::vec3 Place{0};       ///< where rays of its updates start, relative to the camera, metres
 };
 
-/// Of a pixel in the newest frame that has arrived, with r.RT.Debug.Explain. A frame's arrives two frames later, or with WaitForAll.
+/// What the newest frame that has arrived knew of a pixel, with r.RT.Debug.Explain. A frame's arrives two frames later, or with WaitForAll.
 /// Only frames whose indirect light ends in radiance cells are explained.
 struct FPixelExplanation
 {
