@@ -93,7 +93,8 @@ TEST_F(FOutputTest, ViewIsTakenBeforeTheOtherOptions)
 	Folder.Write("views.json", R"({"a.gltf": [{"name": "main", "camera": [0, 0, 3, 0, 0, 0, 50], "sun": [2, 0, 0, -1, 0]},
 		{"name": "near", "camera": [0, 0, 1, 0, 0, 0, 50], "sun": [2, 0, 0, -1, 0], "sky": [0.25, 0.5, 1]}]})");
 	const auto Render = [&](const std::vector<std::string>& View) {
-		std::vector<std::string> Arguments = {"render", At("a.gltf"), "--size", "24x16", "-o", At("a.pfm"), "--json", At("a.json")};
+		std::vector<std::string> Arguments = {"render", At("a.gltf"), "--size", "24x16", "--set", "r.RT.GI=0", "--set",
+		    "r.RT.Reflections=0", "-o", At("a.pfm"), "--json", At("a.json")};
 		Arguments.insert(Arguments.end(), View.begin(), View.end());
 		RunCleanly(Arguments);
 		FImage Image;
@@ -133,7 +134,8 @@ TEST_F(FOutputTest, RenderSettlesUnlessTheNumberOfFramesIsGiven)
 	EXPECT_LT(Frames, 64u);
 	EXPECT_EQ(Json["settled"], true);
 	EXPECT_THAT(Noisy, HasSubstr("frames: " + std::to_string(Frames) + ", settled"));
-	EXPECT_THAT(Render({"planes", "--sky", "1,1,1", "--frames", "1"}), HasSubstr("frames: 1\n"));
+	EXPECT_THAT(Render({"planes", "--sky", "1,1,1", "--frames", "1", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0"}),
+	    HasSubstr("frames: 1\n"));
 	EXPECT_EQ(Json["frames"], 1);
 	EXPECT_TRUE(Json["settled"].is_null());
 }
@@ -154,7 +156,8 @@ TEST_F(FOutputTest, PassesThatTheSceneDoesNotNeedAreAbsent)
 	EXPECT_EQ(Json["rays"], 0);
 	EXPECT_EQ(Json["memory"]["blas"], 0) << "nobody traces rays";
 	EXPECT_EQ(Json["memory"]["tlas"], 0);
-	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.Shadow=0"}), Not(Contains("SunShadow")));
+	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.Shadow=0", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0"}),
+	    Not(Contains("SunShadow")));
 	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0", "--set", "r.RT.Shadow.Path=1"}),
 	    Contains("SunShadow"));
 	EXPECT_EQ(Json["rtpso"]["hit_groups"], 1);
@@ -199,7 +202,8 @@ TEST_F(FOutputTest, PictureIsTheSameWhateverItsFileAndLastFrameCounts)
 TEST_F(FOutputTest, FileOfBeforeIsReplacedWhole)
 {
 	Folder.Write("a.pfm", std::string(100'000, 'x'));
-	RunCleanly({"render", "furnace", "--size", "4x4", "-o", At("a.pfm")});
+	RunCleanly({"render", "furnace", "--size", "4x4", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0", "--set",
+	    "r.RT.Lights.Emissive=0", "-o", At("a.pfm")});
 	EXPECT_LT(ReadFile(At("a.pfm")).size(), 400u);
 	EXPECT_EQ(ListFolder(Folder.GetPath()), std::vector<std::string>{"a.pfm"});
 }
@@ -244,7 +248,8 @@ TEST_F(FOutputTest, InfoTellsWhatRunsAndWhyNot)
 			EXPECT_TRUE(Feature["runs"].get<bool>() || Feature["why"] != "") << Feature.dump();
 		}
 	}
-	const FProgramRun Chosen = RunProgram({"render", "furnace", "--size", "8x8", "--device", "0"});
+	const FProgramRun Chosen = RunProgram({"render", "furnace", "--size", "8x8", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0",
+	    "--set", "r.RT.Lights.Emissive=0", "--device", "0"});
 	EXPECT_THAT(Chosen.Err, HasSubstr(Devices[0]["device"].get<std::string>()));
 }
 
@@ -263,8 +268,11 @@ TEST_F(FOutputTest, FrameBenchmarkTimesEachPassOnTheDevice)
 
 TEST_F(FOutputTest, CompareWritesTheFigures)
 {
-	RunCleanly({"render", "furnace:0.5", "--size", "32x32", "-o", At("a.pfm")});
-	RunCleanly({"render", "furnace:0.7", "--size", "32x32", "-o", At("b.pfm")});
+	for (const auto& [Name, Sky] : {std::pair("a.pfm", "1,1,1"), std::pair("b.pfm", "0.5,0.5,0.5")})
+	{
+		RunCleanly(
+		    {"render", "planes", "--sky", Sky, "--size", "32x32", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0", "-o", At(Name)});
+	}
 	const std::string HeatMap = At(CheckImageOutput(At("h.png")) ? "h.png" : "h.pfm");
 	const FProgramRun Run = RunCleanly({"compare", At("a.pfm"), At("b.pfm"), "--json", At("c.json"), "--heatmap", HeatMap});
 	EXPECT_THAT(Run.Out, HasSubstr("flip"));
@@ -273,12 +281,14 @@ TEST_F(FOutputTest, CompareWritesTheFigures)
 	EXPECT_THAT(
 	    GetKeys(C), IsSupersetOf({"mse", "rmse", "relmse", "psnr", "flip", "mean_ratio", "block16_median", "block16_p95", "nonfinite"}));
 	EXPECT_EQ(C["mean_ratio"].size(), 3u);
+	EXPECT_GT(C["mse"].get<double>(), 0.0);
 	EXPECT_EQ(C["nonfinite"].size(), 2u);
 	EXPECT_GT(std::filesystem::file_size(HeatMap), 0u);
 	RunCleanly({"compare", At("a.pfm"), At("a.pfm"), "--json", At("same.json")});
 	EXPECT_EQ(ReadJson(At("same.json"))["mse"], 0.0);
 	EXPECT_TRUE(ReadJson(At("same.json"))["psnr"].is_null()) << "infinite";
-	const FProgramRun Sizes = RunProgram({"render", "furnace", "--size", "8x8", "-o", At("small.pfm")});
+	const FProgramRun Sizes = RunProgram({"render", "furnace", "--size", "8x8", "--set", "r.RT.GI=0", "--set", "r.RT.Reflections=0",
+	    "--set", "r.RT.Lights.Emissive=0", "-o", At("small.pfm")});
 	EXPECT_EQ(RunProgram({"compare", At("a.pfm"), At("small.pfm")}).Status, 4);
 }
 

@@ -157,9 +157,11 @@ EPicture ExpectPicture(const std::string& Variable)
 	return EPicture::Either;
 }
 
+using FSceneChangeSlowTest = FSceneChangeTest; // the driver compiles the courtyard's pipelines again for most variables
+
 // Every switch flipped between frames: the next frame is drawn without a message and shows what it should, and back at the default
 // the picture is what it was.
-TEST_F(FSceneChangeTest, TogglesBetweenFrames)
+TEST_F(FSceneChangeSlowTest, TogglesBetweenFrames)
 {
 	ASSERT_TRUE(Load("courtyard"));
 	FView View = MakeView(64, 36);
