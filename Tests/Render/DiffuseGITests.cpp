@@ -54,10 +54,10 @@ TEST_F(FDiffuseGITest, CornellAsTheReference)
 	}
 }
 
-// Without alpha tests: raster asks coarser levels of the texture than rays do, and sees through leaves that the reference's
-// camera rays hit. That is 5 % of this picture's light, and not the pass's.
 using FDiffuseGISlowTest = FDiffuseGITest;
 
+// Without alpha tests: raster asks coarser levels of the texture than rays do, and sees through leaves that the reference's
+// camera rays hit. That is 5 % of this picture's light, and not the pass's.
 TEST_F(FDiffuseGISlowTest, CourtyardAsTheReference)
 {
 	ASSERT_TRUE(Load("courtyard"));

@@ -30,6 +30,7 @@ struct FOptions
 	FSettings Settings = {{"r.RT.GI", "1"}, {"r.RT.GI.Denoise", "0"}};
 	glm::dvec3 Offset{0};
 	int Rounds = 1;
+	bool bChanges = true; ///< of the round: also judges what changes in the scene
 };
 
 int Complain(int Exit, const std::string& Text)
@@ -55,17 +56,17 @@ bool ParseOption(const std::string& Name, const std::string& Value, FOptions& Ou
 }
 
 /// The device and all that lives on it are gone when this returns.
-int RunOnInstance(IRTModule& Module, const FForkInstance& Instance, const FOptions& Options, bool bChanges)
+int RunOnInstance(IRTModule& Module, const FForkInstance& Instance, const FOptions& Options)
 {
 	const FForkScene Scene = MakeScene(At(Options.Offset.x, Options.Offset.y, Options.Offset.z));
 	FForkEngine Engine(Module, Instance);
 	if (const FError Error = Engine.CreateDevice(); !Error.empty()) { return Complain(NoDevice, Error); }
 	FError Error = Engine.LoadScene(Scene);
-	if (Error.empty()) { Error = CheckScenes(Engine, Scene, Options.Pictures, bChanges); }
+	if (Error.empty()) { Error = CheckScenes(Engine, Scene, Options.Pictures, Options.bChanges); }
 	return Error.empty() ? Done : Complain(CheckFailed, Error);
 }
 
-int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOptions& Options, bool bChanges)
+int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOptions& Options)
 {
 	FError Error = InitializeModule(Module, Manifest, Options.Settings);
 	if (!Error.empty()) { return Complain(CheckFailed, Error); }
@@ -76,7 +77,7 @@ int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOpt
 	{
 		std::fprintf(stderr, "EngineFork: the Vulkan validation layer is not installed: wrong use goes unseen\n");
 	}
-	const int Exit = RunOnInstance(Module, Instance, Options, bChanges);
+	const int Exit = RunOnInstance(Module, Instance, Options);
 	if (Instance.ValidationMessages != 0) // includes those about objects that outlived the device
 	{
 		return Complain(CheckFailed, std::to_string(Instance.ValidationMessages) + " validation messages");
@@ -84,8 +85,8 @@ int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOpt
 	return Exit;
 }
 
-/// Loads the plugin, renders, judges, and unloads the plugin. bChanges: also what changes in the scene.
-int RunRound(const FPluginManifest& Manifest, const FOptions& Options, bool bChanges)
+/// Loads the plugin, renders, judges, and unloads the plugin.
+int RunRound(const FPluginManifest& Manifest, const FOptions& Options)
 {
 	FPluginLibrary Library;
 	FError Error = Library.Load(Manifest, Options.LibraryFolder);
@@ -93,7 +94,7 @@ int RunRound(const FPluginManifest& Manifest, const FOptions& Options, bool bCha
 	if (Error.empty()) { Error = Library.CreateModule(Module); }
 	if (!Error.empty()) { return Complain(CheckFailed, Error); }
 	std::printf("plugin: %s %s\n", Show(Manifest.Name).c_str(), Module->GetVersionString());
-	const int Exit = RunWithModule(*Module, Manifest, Options, bChanges);
+	const int Exit = RunWithModule(*Module, Manifest, Options);
 	Module.Reset();
 	if (!Library.Unload()) { return Complain(CheckFailed, "the library is still in the process after unloading"); }
 	return Exit;
@@ -115,6 +116,10 @@ int main(int Count, char** Arguments)
 	FPluginManifest Manifest;
 	if (const FError Error = ReadManifest(Options.Plugin, Manifest); !Error.empty()) { return Complain(CheckFailed, Error); }
 	int Exit = Done;
-	for (int Round = 0; Exit == Done && Round < Options.Rounds; ++Round) { Exit = RunRound(Manifest, Options, Round == 0); }
+	for (int Round = 0; Exit == Done && Round < Options.Rounds; ++Round)
+	{
+		Options.bChanges = Round == 0; // later rounds show that the first left nothing behind
+		Exit = RunRound(Manifest, Options);
+	}
 	return Exit;
 }

@@ -1,8 +1,6 @@
 // What is known of the light of one pixel, as JSON and as text.
 #include "Commands/Explain.h"
 
-#include <charconv>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -48,16 +46,6 @@ void PrintCell(const nlohmann::json& Link)
 	    Show(Cell["place_m"]));
 }
 } // namespace
-
-std::optional<glm::uvec2> ParsePixel(const std::string& Text)
-{
-	glm::uvec2 Pixel{0};
-	const char* const End = Text.data() + Text.size();
-	const auto [Comma, First] = std::from_chars(Text.data(), End, Pixel.x);
-	if (First != std::errc() || Comma == End || *Comma != ',') { return {}; }
-	const auto [Last, Second] = std::from_chars(Comma + 1, End, Pixel.y);
-	return Second == std::errc() && Last == End ? std::optional<glm::uvec2>(Pixel) : std::nullopt;
-}
 
 FSignalSet GetExplainedSignals()
 {

@@ -1,9 +1,6 @@
 // lantern render --explain X,Y
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include <glm/vec2.hpp>
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,9 +9,6 @@
 
 namespace Lantern
 {
-
-/// Returns a pixel from a text of the form X,Y.
-std::optional<glm::uvec2> ParsePixel(const std::string& Text);
 
 /// Signals that an explanation lists: all but the whole frame.
 FSignalSet GetExplainedSignals();

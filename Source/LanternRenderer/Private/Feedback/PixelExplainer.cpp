@@ -44,16 +44,21 @@ FPixelExplanation MakeExplanation(const FExplainedPixel& Of)
 }
 } // namespace
 
+std::optional<glm::uvec2> ParsePixel(std::string_view Text)
+{
+	glm::uvec2 Pixel{0};
+	const char* const End = Text.data() + Text.size();
+	const auto [Comma, First] = std::from_chars(Text.data(), End, Pixel.x);
+	if (First != std::errc() || Comma == End || *Comma != ',') { return {}; }
+	const auto [Last, Second] = std::from_chars(Comma + 1, End, Pixel.y);
+	return Second == std::errc() && Last == End ? std::optional<glm::uvec2>(Pixel) : std::nullopt;
+}
+
 std::optional<glm::uvec2> GetExplainedPixel()
 {
 	const std::string& Text = CVarExplain.GetOnRenderThread();
 	if (Text.empty()) { return {}; }
-	glm::uvec2 Pixel{0};
-	const char* const End = Text.data() + Text.size();
-	const auto [Comma, First] = std::from_chars(Text.data(), End, Pixel.x);
-	const bool bFirst = First == std::errc() && Comma != End && *Comma == ',';
-	const auto [Last, Second] = std::from_chars(bFirst ? Comma + 1 : End, End, Pixel.y);
-	if (bFirst && Second == std::errc() && Last == End) { return Pixel; }
+	if (const std::optional<glm::uvec2> Pixel = ParsePixel(Text)) { return Pixel; }
 	LogOnce(ERTLogLevel::Warning, "r.RT.Debug.Explain: " + Quote(Text) + " is not X,Y of a pixel; no pixel is explained");
 	return {};
 }

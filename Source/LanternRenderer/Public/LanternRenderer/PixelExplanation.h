@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace Lantern
@@ -39,5 +41,8 @@ struct FPixelExplanation
 	std::array<std::optional<FExplainedRadianceCell>, 4> Cells; ///< absent: there is no such cell
 	uint32_t Frames = 0;                                        ///< number of frames that have arrived
 };
+
+/// Returns a pixel from a text of the form X,Y, as r.RT.Debug.Explain has it; nothing from any other text. Any thread.
+std::optional<glm::uvec2> ParsePixel(std::string_view Text);
 
 } // namespace Lantern
