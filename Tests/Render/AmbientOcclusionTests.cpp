@@ -1,7 +1,6 @@
 // The plugin's ambient occlusion against closed forms, one path against the other, and against the path tracer's.
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "LanternImage/ImageStatistics.h"
 #include "Support/RenderFixture.h"
@@ -12,7 +11,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 
 /// 1 − (d / R)² blocked by what is at distance d.
 double Visible(double Distance, double Radius) { return std::min(1.0, Distance * Distance / (Radius * Radius)); }

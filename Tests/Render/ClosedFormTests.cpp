@@ -5,7 +5,6 @@
 // Every estimate is eight independent pictures; what they scatter gives the statistical error, which must be below a
 // third of the tolerance (0.2 % for the furnace, 0.5 % for the rest).
 #include <cmath>
-#include <numbers>
 
 #include "Support/RenderFixture.h"
 
@@ -14,7 +13,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 constexpr double Tolerance = 0.005;
 constexpr double FurnaceTolerance = 0.002;
 constexpr double FloorAlbedo = 0.5; // of the built-in light scenes

@@ -1,7 +1,6 @@
 // Brute-force diffuse global illumination: closed forms of paths of so many bounces, the reference, and nothing that is not
 // a number.
 #include <cmath>
-#include <numbers>
 
 #include "SignalFixture.h"
 
@@ -10,7 +9,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 
 class FDiffuseGITest : public FSignalTest
 {};

@@ -4,7 +4,6 @@
 // behind. Both are Lambert lobes.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -16,7 +15,7 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi, Tolerance = 0.005;
+constexpr double Tolerance = 0.005;
 constexpr float Share = 0.6f;
 constexpr glm::vec3 FrontColor{0.2f, 0.5f, 0.7f}, BackColor{0.9f, 0.4f, 0.1f};
 

@@ -12,8 +12,6 @@ namespace Lantern
 namespace
 {
 
-constexpr double Pi = 3.14159265358979;
-
 double ComputePhase(double Cosine, double G) { return (1 - G * G) / (4 * Pi * std::pow(1 + G * G - 2 * G * Cosine, 1.5)); }
 
 class FFogLightTest : public FFogTest

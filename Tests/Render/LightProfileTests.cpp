@@ -1,7 +1,6 @@
 // Lamps with a profile: what a plane receives against the closed form E = I(angle) cos³ / h², and signals against the reference.
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -15,7 +14,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 constexpr double Tolerance = 0.005;
 constexpr double Height = 2.0, Peak = 40.0; // metres, candela
 const float Albedo = MakeSrgb(190);

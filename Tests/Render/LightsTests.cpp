@@ -1,7 +1,6 @@
 // Lights with an extent against closed forms, in the reference and in direct lighting, and against surfaces that emit as they do.
 // The figures for polygons are Lambert's; those of disk and sphere are textbook ones; the tube is integrated on the CPU.
 #include <cmath>
-#include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -16,7 +15,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 constexpr double Tolerance = 0.005;
 constexpr uint32_t Batches = 8;
 

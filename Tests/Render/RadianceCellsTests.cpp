@@ -1,7 +1,6 @@
 // Diffuse GI by paths that end in radiance cells: closed forms of all bounces, brute force of many, walls without thickness, tables that
 // are too small, cuts, poison, and the same bits again.
 #include <cmath>
-#include <numbers>
 
 #include "CachedGIFixture.h"
 #include "LanternCore/Config/ConsoleVariables.h"
@@ -11,7 +10,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 
 class FRadianceCellsTest : public FCachedGITest
 {

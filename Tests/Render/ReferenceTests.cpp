@@ -2,7 +2,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 #include "Support/RenderFixture.h"
 #include "Support/SharedFiles.h"
@@ -13,7 +12,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 
 class FReferenceTest : public FRenderTest
 {

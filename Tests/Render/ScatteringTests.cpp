@@ -1,6 +1,5 @@
 // Water that scatters light: the reference against closed forms and against a simulation of its own, and frames against both.
 #include <cmath>
-#include <numbers>
 
 #include "SignalFixture.h"
 #include "TransmissionFixture.h"
@@ -11,7 +10,7 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi, Index = 1.333;
+constexpr double Index = 1.333;
 constexpr float Wide = 300.0f; ///< half the edge of pools: paths that leave aside are lost
 
 struct FPool

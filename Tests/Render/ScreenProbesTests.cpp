@@ -1,7 +1,6 @@
 // Diffuse GI by screen probes: closed forms, short rays of pixels against brute force, sizes that do not fit, poison, and the same bits again.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "CachedGIFixture.h"
 #include "LanternCore/Config/ConsoleVariables.h"
@@ -11,7 +10,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 
 class FScreenProbesTest : public FCachedGITest
 {

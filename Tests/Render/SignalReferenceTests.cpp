@@ -1,7 +1,6 @@
 // The reference of each signal: closed forms, and how signals add up to the frame.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "SignalFixture.h"
 #include "Support/SharedFiles.h"
@@ -11,7 +10,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 
 class FSignalReferenceTest : public FSignalTest
 {};

@@ -1,7 +1,6 @@
 // The plugin's sun shadows against geometry, against closed form 8, against the reference path tracer, and one path
 // against the other.
 #include <cmath>
-#include <numbers>
 
 #include "LanternImage/ImageStatistics.h"
 #include "Support/RenderFixture.h"
@@ -12,7 +11,6 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
 
 class FSunShadowTest : public FRenderTest
 {

@@ -12,9 +12,7 @@ namespace Lantern
 
 namespace
 {
-constexpr double Pi = std::numbers::pi;
-
-double Phase(double Cosine, double G) { return (1.0 - G * G) / (4.0 * Pi * std::pow(1.0 + G * G - 2.0 * G * Cosine, 1.5)); }
+double Phase(double Cosine, double G) { return (1.0 - G * G) / (4.0 * std::numbers::pi * std::pow(1.0 + G * G - 2.0 * G * Cosine, 1.5)); }
 
 /// Reflectance of the surface from below, where light is reflected wholly at flat angles.
 double ReflectanceFromBelow(double Index, double Cosine)
@@ -68,7 +66,7 @@ private:
 	{
 		const double G = Layer.Anisotropy, U = Next(), Root = (1.0 - G * G) / (1.0 - G + 2.0 * G * U);
 		const double Cosine = std::abs(G) < 1.0e-3 ? 2.0 * U - 1.0 : (1.0 + G * G - Root * Root) / (2.0 * G);
-		const double Angle = 2.0 * Pi * Next(), Sine = std::sqrt(std::max(1.0 - Cosine * Cosine, 0.0));
+		const double Angle = 2.0 * std::numbers::pi * Next(), Sine = std::sqrt(std::max(1.0 - Cosine * Cosine, 0.0));
 		const glm::dvec3 Aside = std::abs(Direction.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
 		const glm::dvec3 X = glm::normalize(glm::cross(Direction, Aside)), Y = glm::cross(X, Direction);
 		Direction = glm::normalize(Cosine * Direction + Sine * (std::cos(Angle) * X + std::sin(Angle) * Y));

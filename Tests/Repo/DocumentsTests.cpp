@@ -23,11 +23,6 @@ struct FQuote
 	std::string Place, Text;
 };
 
-bool IsDocument(const FTextFile& File)
-{
-	return File.Path == "README.md" || File.Path == "CONTRIBUTING.md" || (IsUnder(File, "Docs") && HasExtension(File, {".md"}));
-}
-
 bool IsSearched(const FTextFile& File) { return !HasExtension(File, {".md"}) && !IsUnder(File, "Tests/Repo"); }
 
 void CollectQuotes(const FTextFile& File, std::vector<FQuote>& Quotes)

@@ -21,8 +21,6 @@ bool IsUpper(char C) { return C >= 'A' && C <= 'Z'; }
 
 bool IsWordCharacter(char C) { return IsUpper(C) || (C >= 'a' && C <= 'z') || IsDigit(C); }
 
-bool StartsWith(std::string_view Text, std::string_view Start) { return Text.substr(0, Start.size()) == Start; }
-
 std::string_view TrimBlanks(std::string_view Text)
 {
 	while (!Text.empty() && IsBlank(Text.front())) { Text.remove_prefix(1); }
@@ -37,7 +35,7 @@ std::string Simplify(std::string_view Prose)
 	for (size_t Place = 0; Place < Prose.size(); ++Place)
 	{
 		const bool bCode = Prose[Place] == '`';
-		const bool bLink = StartsWith(Prose.substr(Place), "](");
+		const bool bLink = Prose.substr(Place).starts_with("](");
 		const size_t Close = bCode || bLink ? Prose.find(bCode ? '`' : ')', Place + 1) : None;
 		if (Close == None)
 		{
@@ -62,7 +60,7 @@ bool IsAbbreviation(std::string_view Text, size_t Dot)
 bool BeginsSentence(std::string_view Text)
 {
 	if (Text.empty()) { return false; }
-	return IsUpper(Text[0]) || IsDigit(Text[0]) || std::string_view("\"'[(*_").find(Text[0]) != None || StartsWith(Text, "r.RT.");
+	return IsUpper(Text[0]) || IsDigit(Text[0]) || std::string_view("\"'[(*_").find(Text[0]) != None || Text.starts_with("r.RT.");
 }
 
 /// Length of the sentence that ends with the mark at Place, closing brackets and quotation marks included; 0: none ends there.
@@ -128,7 +126,7 @@ std::string FindFault(std::string_view Sentence)
 	for (const std::string_view Opening : RefusedOpenings)
 	{
 		const bool bWhole = Bare.size() == Opening.size() || (Bare.size() > Opening.size() && !IsWordCharacter(Bare[Opening.size()]));
-		if (StartsWith(Bare, Opening) && bWhole) { return "begins with \"" + std::string(Opening) + "\""; }
+		if (Bare.starts_with(Opening) && bWhole) { return "begins with \"" + std::string(Opening) + "\""; }
 	}
 	const size_t Words = CountWords(Sentence);
 	return Words > MaxSentenceWords ? std::to_string(Words) + " words" : std::string();

@@ -24,11 +24,6 @@ bool IsPublicHeader(const FTextFile& File)
 	return IsUnder(File, "Source") && HasExtension(File, {".h"}) && File.Path.find("/Public/") != std::string::npos;
 }
 
-bool IsDocument(const FTextFile& File)
-{
-	return File.Path == "README.md" || File.Path == "CONTRIBUTING.md" || (IsUnder(File, "Docs") && HasExtension(File, {".md"}));
-}
-
 /// Number of sentences.
 size_t CheckProse(const FTextFile& File, const FProse& Prose)
 {

@@ -19,13 +19,11 @@ constexpr size_t MaxFunctionLines = 100; ///< refused
 
 bool IsCode(const FTextFile& File) { return IsCpp(File) || (IsUnder(File, "Shaders") && File.Path.find(".md") == std::string::npos); }
 
-bool StartsWith(std::string_view Line, std::string_view Word) { return Line.substr(0, Word.size()) == Word; }
-
 bool OpensFunction(std::string_view LineBefore)
 {
 	for (const char* Word : {"namespace", "struct", "class", "enum", "union", "extern", "template"})
 	{
-		if (StartsWith(LineBefore, Word) && LineBefore.find('(') == std::string_view::npos) { return false; }
+		if (LineBefore.starts_with(Word) && LineBefore.find('(') == std::string_view::npos) { return false; }
 	}
 	return !LineBefore.empty() && LineBefore.find('=') == std::string_view::npos;
 }
@@ -49,7 +47,7 @@ std::vector<FFunction> FindFunctions(const FTextFile& File)
 			Begin = Line;
 			bInside = true;
 		}
-		else if (bInside && StartsWith(File.Lines[Line], "}"))
+		else if (bInside && File.Lines[Line].starts_with("}"))
 		{
 			Functions.push_back({At(File, Begin), Line - Begin - 1});
 			bInside = false;
@@ -76,7 +74,7 @@ TEST(Hygiene, SourceFilesOpenWithWhatLivesThere)
 		++Seen;
 		// One word would only repeat the file's name.
 		const std::string_view First = File.Lines.empty() ? std::string_view() : File.Lines[0];
-		const bool bComment = StartsWith(First, "// ") && First.find(' ', 3) != std::string_view::npos;
+		const bool bComment = First.starts_with("// ") && First.find(' ', 3) != std::string_view::npos;
 		EXPECT_TRUE(bComment) << File.Path << ": the first line must be a comment that says what lives in the file";
 	}
 	EXPECT_GT(Seen, 100u) << "found no files to check";
@@ -92,7 +90,7 @@ TEST(Hygiene, AMacroOfTestHeadersIsDefinedOnce)
 		for (size_t Line = 0; Line < File.Lines.size(); ++Line)
 		{
 			constexpr std::string_view Define = "#define ";
-			if (!StartsWith(File.Lines[Line], Define)) { continue; }
+			if (!File.Lines[Line].starts_with(Define)) { continue; }
 			const std::string_view Rest = File.Lines[Line].substr(Define.size());
 			const auto [Known, bNew] = Places.emplace(Rest.substr(0, Rest.find_first_of(" (")), At(File, Line));
 			EXPECT_TRUE(bNew) << At(File, Line) << ": " << Known->first << " is defined at " << Known->second;

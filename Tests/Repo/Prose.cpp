@@ -16,8 +16,6 @@ bool IsDigit(char C) { return C >= '0' && C <= '9'; }
 
 bool IsWordCharacter(char C) { return (C >= 'a' && C <= 'z') || (C >= 'A' && C <= 'Z') || IsDigit(C) || C == '_'; }
 
-bool StartsWith(std::string_view Text, std::string_view Start) { return Text.substr(0, Start.size()) == Start; }
-
 std::string_view Trim(std::string_view Text)
 {
 	const size_t Begin = Text.find_first_not_of(Blanks);
@@ -29,9 +27,9 @@ size_t GetListMark(std::string_view Text)
 {
 	size_t Length = 0;
 	while (Length < Text.size() && IsDigit(Text[Length])) { ++Length; }
-	const bool bNumber = Length > 0 && StartsWith(Text.substr(Length), ". ");
+	const bool bNumber = Length > 0 && Text.substr(Length).starts_with(". ");
 	if (bNumber) { return Length + 2; }
-	return StartsWith(Text, "- ") || StartsWith(Text, "* ") ? 2 : 0;
+	return Text.starts_with("- ") || Text.starts_with("* ") ? 2 : 0;
 }
 
 class FProseCollector
@@ -71,7 +69,7 @@ size_t FindCommentStart(std::string_view Line)
 			else if (C == Quote) { Quote = 0; }
 		}
 		else if (C == '"' || (C == '\'' && !bDigitSeparator)) { Quote = C; }
-		else if (StartsWith(Line.substr(Place), "//")) { return Place; }
+		else if (Line.substr(Place).starts_with("//")) { return Place; }
 	}
 	return None;
 }
@@ -94,10 +92,10 @@ struct FCommentLine
 /// Comment: from its slashes on.
 FCommentLine ParseComment(std::string_view Comment, bool bBehindCode)
 {
-	Comment.remove_prefix(StartsWith(Comment, "///") ? 3 : 2);
-	const bool bMember = StartsWith(Comment, "<");
+	Comment.remove_prefix(Comment.starts_with("///") ? 3 : 2);
+	const bool bMember = Comment.starts_with("<");
 	if (bMember) { Comment.remove_prefix(1); }
-	const bool bIndented = StartsWith(Comment, "  ") || StartsWith(Comment, "\t");
+	const bool bIndented = Comment.starts_with("  ") || Comment.starts_with("\t");
 	const std::string_view Text = Trim(Comment);
 	if (bBehindCode) { return {ECommentKind::Trailing, Text}; }
 	if (bMember) { return {ECommentKind::Member, Text}; }
@@ -149,7 +147,7 @@ void AddMarkdownLine(FProseCollector& Out, size_t Line, std::string_view Text)
 		Out.Begin(Line, Trim(Text.substr(std::min(Text.find_first_not_of('#'), Text.size()))));
 		return Out.End();
 	}
-	while (StartsWith(Text, ">")) { Text = Trim(Text.substr(1)); }
+	while (Text.starts_with(">")) { Text = Trim(Text.substr(1)); }
 	const size_t Mark = GetListMark(Text);
 	if (Mark > 0) { return Out.Begin(Line, Trim(Text.substr(Mark))); }
 	Out.Continue(Line, Text);
@@ -185,7 +183,7 @@ std::vector<FProse> FindParagraphs(const std::vector<std::string_view>& Lines)
 	for (size_t Line = 0; Line < Lines.size(); ++Line)
 	{
 		const std::string_view Text = Trim(Lines[Line]);
-		const bool bFence = StartsWith(Text, "```") || StartsWith(Text, "~~~");
+		const bool bFence = Text.starts_with("```") || Text.starts_with("~~~");
 		if (bFence) { bFenced = !bFenced; }
 		if (bFence || bFenced || Text.empty()) { Out.End(); }
 		else { AddMarkdownLine(Out, Line, Text); }

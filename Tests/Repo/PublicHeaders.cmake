@@ -15,6 +15,7 @@ foreach(MODULE IN LISTS LANTERN_ALL_MODULES)
   endforeach()
   if(HEADER_SOURCES)
     add_library(PublicHeaders_${MODULE} OBJECT ${HEADER_SOURCES})
+    set_target_properties(PublicHeaders_${MODULE} PROPERTIES UNITY_BUILD OFF) # each must compile alone
     target_link_libraries(PublicHeaders_${MODULE} PRIVATE ${MODULE} LanternOptions)
     if(MODULE STREQUAL "LanternRHI")
       set_target_properties(PublicHeaders_${MODULE} PROPERTIES CXX_STANDARD 17)

@@ -77,6 +77,11 @@ bool IsUnder(const FTextFile& File, std::string_view Folder)
 	return File.Path.size() > Folder.size() && File.Path.compare(0, Folder.size(), Folder) == 0 && File.Path[Folder.size()] == '/';
 }
 
+bool IsDocument(const FTextFile& File)
+{
+	return File.Path == "README.md" || File.Path == "CONTRIBUTING.md" || (IsUnder(File, "Docs") && HasExtension(File, {".md"}));
+}
+
 bool HasExtension(const FTextFile& File, std::initializer_list<std::string_view> Extensions)
 {
 	const std::string Extension = fs::path(File.Path).extension().string();

@@ -22,6 +22,7 @@ std::filesystem::path GetRoot();
 const std::vector<FTextFile>& GetFiles();
 
 bool IsUnder(const FTextFile& File, std::string_view Folder);                                 ///< Folder without a slash at its end
+bool IsDocument(const FTextFile& File);                                                       ///< what users and developers read
 bool HasExtension(const FTextFile& File, std::initializer_list<std::string_view> Extensions); ///< with their dots
 bool IsCpp(const FTextFile& File);
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "LanternCore/Text/Log.h"
+#include "Support/TemporaryFolder.h"
 
 namespace Lantern
 {
@@ -44,34 +45,6 @@ public:
 private:
 	mutable std::mutex Mutex;
 	std::vector<std::pair<ERTLogLevel, std::string>> Lines;
-};
-
-class FTemporaryFolder
-{
-public:
-	FTemporaryFolder()
-	{
-		std::string Pattern = (std::filesystem::temp_directory_path() / "lantern-test-XXXXXX").string();
-		Path = ::mkdtemp(Pattern.data());
-	}
-	~FTemporaryFolder()
-	{
-		std::error_code Ignored;
-		std::filesystem::remove_all(Path, Ignored);
-	}
-	FTemporaryFolder(const FTemporaryFolder&) = delete;
-	FTemporaryFolder& operator=(const FTemporaryFolder&) = delete;
-
-	const std::string& GetPath() const { return Path; }
-	std::string Write(const std::string& Name, std::string_view Text) const
-	{
-		const std::string File = Path + "/" + Name;
-		std::ofstream(File, std::ios::binary) << Text;
-		return File;
-	}
-
-private:
-	std::string Path;
 };
 
 } // namespace Lantern

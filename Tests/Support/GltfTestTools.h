@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "LanternHost/SceneLoader.h"
+#include "Support/TemporaryFolder.h"
 #include "TextCheck.h"
 
 namespace Lantern
@@ -31,29 +32,6 @@ inline std::filesystem::path GetScenesFolder()
 	{                                                                                                                                      \
 		GTEST_SKIP() << (Path).string() << " is not there: LANTERN_SCENES names another folder of scenes";                                 \
 	}
-
-/// A folder of its own for one test, gone afterwards.
-class FTemporaryFolder
-{
-public:
-	FTemporaryFolder()
-	{
-		std::string Template = (std::filesystem::temp_directory_path() / "lantern-scene-XXXXXX").string();
-		Path = mkdtemp(Template.data());
-	}
-	~FTemporaryFolder()
-	{
-		std::error_code Ignored;
-		std::filesystem::remove_all(Path, Ignored);
-	}
-	std::string Write(const std::string& Name, const std::string& Content) const
-	{
-		std::ofstream(Path / Name, std::ios::binary) << Content;
-		return (Path / Name).string();
-	}
-
-	std::filesystem::path Path;
-};
 
 inline std::string EncodeBase64(const std::vector<uint8_t>& Data)
 {

@@ -3,6 +3,7 @@
 // it came. Tests need a driver with ray-tracing pipelines (lavapipe has them).
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -20,6 +21,8 @@
 
 namespace Lantern
 {
+
+inline constexpr double Pi = std::numbers::pi;
 
 /// Path of a file of the scenes folder; empty where it is missing.
 std::string FindScene(const std::string& Name);

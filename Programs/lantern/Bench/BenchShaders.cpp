@@ -164,7 +164,7 @@ FRTStatus ListAll(const FBenchShadersOptions& Options, const FPluginFolders& Fol
 
 using FMeasured = std::pair<const FPipelineShaders*, FShaderCosts>;
 
-void PrintHeader()
+void PrintShaderHeader()
 {
 	fmt::print("{:>9} {:>10} {:>9} {:>12} {:>9} {:>9}  {}\n", "text KB", "SPIR-V KB", "glslang s", "pipeline s", "1st use s", "driver s",
 	    "pipeline");
@@ -217,7 +217,7 @@ int MeasureAll(const FBenchShadersOptions& Options, nlohmann::json& Figures)
 	FShaderBench Bench(*Device, Folders.Shaders);
 	std::vector<FMeasured> All;
 	FBenchProgress Progress("shaders", double(Pipelines.size()));
-	PrintHeader();
+	PrintShaderHeader();
 	for (const FPipelineShaders& Pipeline : Pipelines)
 	{
 		Progress.Begin(Pipeline.Name, 1.0);

@@ -36,7 +36,7 @@ nlohmann::json MakeJson(const FTableCaseResult& Case)
 	                  {"dynamic_1pct_sections", MakeTimes(Case.DynamicSections)}, {"swap", MakeTimes(Case.Swap)}}}};
 }
 
-void PrintHeader()
+void PrintTableHeader()
 {
 	fmt::print("{:>8} {:>8} {:>8}  {:>22} {:>10} {:>22} {:>12} {:>22}  {:>11} {:>11} {:>11}\n", "objects", "sets", "records",
 	    "full us [min, max]", "static us", "1 % us [min, max]", "+ sections", "swap us [min, max]", "full B", "1 % B", "swap B");
@@ -64,7 +64,7 @@ int MeasureAll(IRTDevice& Device, const FBenchTablesOptions& Options, nlohmann::
 	FTablePrograms Programs;
 	if (FRTStatus S = Programs.Create(Device, Compiler); !S) { return ReportStatus(S, "bench sbt"); }
 	int Exit = ExitDone;
-	PrintHeader();
+	PrintTableHeader();
 	FBenchProgress Progress("sbt", 2.0 * std::accumulate(Options.Objects.begin(), Options.Objects.end(), 0.0));
 	for (const bool bShared : {false, true})
 	{

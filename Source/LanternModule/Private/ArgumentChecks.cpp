@@ -22,8 +22,6 @@ bool AreFinite(const T* Values, size_t Count)
 	return std::all_of(Values, Values + Count, [](T Value) { return std::isfinite(Value); });
 }
 
-FRTStatus Refuse(const char* Reason) { return FRTStatus::Error(ERTResult::InvalidArgument, "%s", Reason); }
-
 FRTStatus CheckMap(const FRTModuleMap& Map, const char* Name)
 {
 	uint32_t Slot = NO_TEXTURE;
@@ -279,6 +277,8 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	for (size_t Map = 0; Map < Maps.size() && Status; ++Map) { Status = CheckMap(*Maps[Map], Names[Map]); }
 	return Status;
 }
+
+FRTStatus Refuse(const char* Reason) { return FRTStatus::Error(ERTResult::InvalidArgument, "%s", Reason); }
 
 FRTStatus RefuseNull(const char* Function, const char* Argument)
 {

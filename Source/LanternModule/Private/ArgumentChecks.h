@@ -26,6 +26,8 @@ inline constexpr size_t MaterialMapCount = 8;
 /// In the order of TEXTURE_… in SceneTypes.h.
 std::array<const FRTModuleMap*, MaterialMapCount> GetMaps(const FRTModuleMaterial& Material);
 
+/// InvalidArgument, for Reason.
+FRTStatus Refuse(const char* Reason);
 /// InvalidArgument: Function was given null for Argument.
 FRTStatus RefuseNull(const char* Function, const char* Argument);
 

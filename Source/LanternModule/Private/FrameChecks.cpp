@@ -17,8 +17,6 @@ namespace Lantern
 namespace
 {
 
-FRTStatus Refuse(const char* Reason) { return FRTStatus::Error(ERTResult::InvalidArgument, "%s", Reason); }
-
 bool AreFinite(const auto& Values)
 {
 	return std::all_of(std::begin(Values), std::end(Values), [](auto Value) { return std::isfinite(Value); });

@@ -10,8 +10,6 @@ namespace Lantern
 namespace
 {
 
-unsigned long long Wide(uint64_t Value) { return Value; }
-
 bool IsForTransfer(std::string_view Call) { return Call == "CopyBuffer" || Call == "CopyBufferRegions" || Call == "KeepAlive"; }
 
 bool IsForGraphics(std::string_view Call) { return Call == "BeginRasterPass" || Call == "GenerateMips"; }

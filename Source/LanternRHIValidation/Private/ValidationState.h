@@ -18,6 +18,9 @@
 namespace Lantern
 {
 
+/// As printf takes it.
+inline unsigned long long Wide(uint64_t Value) { return Value; }
+
 /// State of a buffer or texture after the last submission.
 struct FAccessState
 {

@@ -10,8 +10,6 @@ namespace
 
 constexpr uint64_t BoxBytes = 24;
 
-unsigned long long Wide(uint64_t Value) { return Value; }
-
 } // namespace
 
 void FValidatedCommandList::SetPipeline(IRTPipeline* InPipeline)

@@ -22,9 +22,9 @@ nlohmann::json& GetPrimitive(FGltfMaker& Maker) { return Maker.Json["meshes"][0]
 TEST(HostileGltf, FilesThatAreNoFiles)
 {
 	const FTemporaryFolder Folder;
-	ExpectError(LoadScene((Folder.Path / "missing.gltf").string()), {"missing.gltf", "no such file"});
-	std::filesystem::create_directory(Folder.Path / "folder.gltf");
-	ExpectError(LoadScene((Folder.Path / "folder.gltf").string()), {"folder.gltf", "is a directory"});
+	ExpectError(LoadScene((Folder.Get() / "missing.gltf").string()), {"missing.gltf", "no such file"});
+	std::filesystem::create_directory(Folder.Get() / "folder.gltf");
+	ExpectError(LoadScene((Folder.Get() / "folder.gltf").string()), {"folder.gltf", "is a directory"});
 	ExpectError(LoadScene(Folder.Write("empty.gltf", "")), {"empty.gltf", "JSON"});
 	ExpectError(LoadScene(Folder.Write("empty.glb", "")), {"empty.glb", "JSON"});
 	ExpectError(LoadScene(Folder.Write("scene.obj", "v 0 0 0")), {"scene.obj", ".gltf", "courtyard"});
@@ -299,7 +299,7 @@ TEST(HostileGltf, PathsOutsideTheFolderAreRefused)
 {
 	const FTemporaryFolder Folder;
 	const auto& Png = GetTinyPng();
-	std::filesystem::create_directory(Folder.Path / "inner");
+	std::filesystem::create_directory(Folder.Get() / "inner");
 	Folder.Write("secret.png", std::string(Png.begin(), Png.end()));
 	for (const std::string Uri : {"../secret.png", "%2e%2e/secret.png", "a/../../secret.png", "/etc/passwd", "file:///etc/passwd",
 	         "http://example.com/x.png", "..\\secret.png", "c:\\x.png", "..", ""})

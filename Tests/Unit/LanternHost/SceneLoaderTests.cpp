@@ -344,7 +344,7 @@ TEST(RealScenes, GeneratedTangentsRunAsSponzasOwn)
 	{
 		if (Entry.path().extension() != ".gltf")
 		{
-			std::filesystem::create_symlink(std::filesystem::absolute(Entry.path()), Folder.Path / Entry.path().filename());
+			std::filesystem::create_symlink(std::filesystem::absolute(Entry.path()), Folder.Get() / Entry.path().filename());
 		}
 	}
 	const FLoadResult Theirs = LoadScene(Path.string());

@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 
 struct SceneViews : public ::testing::Test
 {
-	std::string At(const std::string& Name) const { return (Folder.Path / Name).string(); }
+	std::string At(const std::string& Name) const { return (Folder.Get() / Name).string(); }
 	FSceneViews Load(const std::string& Text)
 	{
 		Folder.Write("views.json", Text);

@@ -8,7 +8,7 @@ namespace Lantern
 namespace
 {
 
-FSceneLight MakeLight(double X, float Range)
+FSceneLight MakeLampAt(double X, float Range)
 {
 	FSceneLight Light;
 	Light.Position = {X, 0, 0};
@@ -51,18 +51,18 @@ TEST(FLightJournalTest, StoresWriteWhereLightsWereAndAre)
 {
 	FLightStore Store;
 	const FLightJournal& Journal = Store.GetJournal();
-	const FLightId Id = Store.Add(MakeLight(1, 5)), Far = Store.Add(MakeLight(0, 0));
+	const FLightId Id = Store.Add(MakeLampAt(1, 5)), Far = Store.Add(MakeLampAt(0, 0));
 	EXPECT_EQ(Store.GetFiniteCount(), 1u);
 	EXPECT_EQ(Journal.GetCount(), 2u);
 	EXPECT_EQ(GetSince(Journal, 1)[0].Radius, 0.0f) << "everywhere";
-	Store.Set(Id, MakeLight(2, 6));
+	Store.Set(Id, MakeLampAt(2, 6));
 	std::vector<FLightReach> Moved = GetSince(Journal, 2);
 	ASSERT_EQ(Moved.size(), 2u);
 	EXPECT_EQ(Moved[0].Position.x, 1 * int(LIGHT_POSITION_STEPS));
 	EXPECT_EQ(Moved[0].Radius, 5.0f);
 	EXPECT_EQ(Moved[1].Position.x, 2 * int(LIGHT_POSITION_STEPS));
 	EXPECT_EQ(Moved[1].Radius, 6.0f);
-	FSceneLight Red = MakeLight(2, 6);
+	FSceneLight Red = MakeLampAt(2, 6);
 	Red.Color = {1, 0, 0};
 	Red.bCastsShadow = false;
 	Store.Set(Id, Red);
@@ -70,7 +70,7 @@ TEST(FLightJournalTest, StoresWriteWhereLightsWereAndAre)
 	Red.OuterCone = 1.0f;
 	Store.Set(Id, Red);
 	EXPECT_EQ(Journal.GetCount(), 6u);
-	Store.Set(Far, MakeLight(9, 1));
+	Store.Set(Far, MakeLampAt(9, 1));
 	EXPECT_EQ(Journal.GetCount(), 8u);
 	EXPECT_EQ(Store.GetFiniteCount(), 2u);
 	Store.Remove(Id);
@@ -83,7 +83,7 @@ TEST(FLightJournalTest, ReachesAreThoseOfLightsOnTheGpu)
 {
 	for (const double X : {0.0, -3.25, 250'000.0, 300'000.0, -1e9})
 	{
-		FSceneLight Light = MakeLight(X, 2);
+		FSceneLight Light = MakeLampAt(X, 2);
 		EXPECT_EQ(GetReach(Light).Position, PackLight(Light).Position) << X;
 	}
 }
@@ -97,7 +97,7 @@ TEST(FLightChangesTest, StoresWriteWhatCameAndWent)
 		Seen = Store.GetStrengthChanges().GetCount();
 		return Out;
 	};
-	FSceneLight Lamp = MakeLight(0, 5);
+	FSceneLight Lamp = MakeLampAt(0, 5);
 	Lamp.Color = glm::vec3(8.0f);
 	const FLightId Id = Store.Add(Lamp);
 	std::vector<FLightChange> Changes = Take();

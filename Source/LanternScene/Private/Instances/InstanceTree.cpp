@@ -10,7 +10,7 @@ namespace Lantern
 
 namespace
 {
-constexpr uint32_t None = ~0u;
+constexpr uint32_t NoNode = ~0u;
 /// Two sibling leaves that have no more objects than this together become one bucket.
 constexpr uint32_t MergeCount = 40;
 
@@ -55,7 +55,7 @@ uint32_t FInstanceStore::AllocateNode()
 
 uint32_t FInstanceStore::FindLeaf(const FKey& Key, const glm::vec3& At)
 {
-	const auto [Found, bNew] = Roots.try_emplace(Key, None);
+	const auto [Found, bNew] = Roots.try_emplace(Key, NoNode);
 	if (bNew)
 	{
 		Found->second = AllocateNode();
@@ -75,7 +75,7 @@ void FInstanceStore::Split(uint32_t Index)
 	if (!ChooseCut(*Buckets[Index], Axis, Cut))
 	{
 		// All objects are in one place: the full bucket leaves the tree, and a fresh one takes its leaf.
-		Buckets[Index]->Node = None;
+		Buckets[Index]->Node = NoNode;
 		Nodes[Node].Child[0] = AllocateBucket(Key, Node);
 		return;
 	}
@@ -123,7 +123,7 @@ void FInstanceStore::RemoveLeaf(uint32_t Index)
 {
 	const FInstanceBucket& Bucket = *Buckets[Index];
 	const uint32_t Leaf = Bucket.Node, Parent = Nodes[Leaf].Parent;
-	if (Parent == None)
+	if (Parent == NoNode)
 	{
 		Roots.erase(FKey{Bucket.Cell, Bucket.Level, Bucket.Group});
 		FreeNodes.push_back(Leaf);
@@ -135,7 +135,7 @@ void FInstanceStore::RemoveLeaf(uint32_t Index)
 void FInstanceStore::MergeWithSibling(uint32_t Index)
 {
 	const uint32_t Leaf = Buckets[Index]->Node, Parent = Nodes[Leaf].Parent;
-	if (Parent == None) { return; }
+	if (Parent == NoNode) { return; }
 	const uint32_t Sibling = Nodes[Parent].Child[Nodes[Parent].Child[0] == Leaf ? 1 : 0];
 	if (Nodes[Sibling].Axis >= 0) { return; }
 	const uint32_t Other = Nodes[Sibling].Child[0];

@@ -27,7 +27,7 @@ constexpr uint64_t Alignment = 256;
 constexpr uint32_t MostIdleFrames = 120;
 constexpr uint64_t WaitNs = 60'000'000'000ull;
 
-uint64_t Align(uint64_t Value) { return (Value + Alignment - 1) & ~(Alignment - 1); }
+uint64_t AlignUpload(uint64_t Value) { return (Value + Alignment - 1) & ~(Alignment - 1); }
 } // namespace
 
 uint64_t GetMostStagingBytes() { return static_cast<uint64_t>(std::get<int32_t>(CVarStaging.GetValue())) << 20; }
@@ -66,7 +66,7 @@ FRTStatus FUploader::Reserve(uint64_t Size, uint64_t& OutOffset)
 		}
 	}
 	OutOffset = Used;
-	Used = Align(Used + Size);
+	Used = AlignUpload(Used + Size);
 	return BeginIfNeeded();
 }
 
@@ -154,7 +154,7 @@ FRTStatus FFrameUploads::Allocate(uint64_t Size, FUploadSlice& Out)
 		}
 		else
 		{
-			Page.Size = std::max(PageBytes, Align(Size));
+			Page.Size = std::max(PageBytes, AlignUpload(Size));
 			const FRTBufferDesc Desc{Page.Size, ERTBufferUsage::CopySource | ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput,
 			    ERTMemory::Upload, "FrameUploads"};
 			if (FRTStatus S = Device.CreateBuffer(Desc, Page.Buffer.ReleaseAndGetAddress()); !S) { return S; }
@@ -167,7 +167,7 @@ FRTStatus FFrameUploads::Allocate(uint64_t Size, FUploadSlice& Out)
 	Out.Offset = Used;
 	Out.Address = Page.Buffer->GetDeviceAddress() + Used;
 	Out.Data = static_cast<uint8_t*>(Page.Buffer->GetMapped()) + Used;
-	Used = Align(Used + Size);
+	Used = AlignUpload(Used + Size);
 	return FRTStatus::Success();
 }
 

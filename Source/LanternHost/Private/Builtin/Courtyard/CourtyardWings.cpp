@@ -14,12 +14,12 @@ namespace
 constexpr float Q = glm::half_pi<float>();
 
 /// A wall in the xy plane facing +z, with a rectangular opening of some depth.
-struct FOpening
+struct FWallOpening
 {
 	float X0, X1, Y0, Y1, Depth;
 };
 
-void AddWallWithOpening(FMeshBuilder& Mesh, float Half, float Top, const FOpening& O)
+void AddWallWithOpening(FMeshBuilder& Mesh, float Half, float Top, const FWallOpening& O)
 {
 	const auto AddFace = [&](float X0, float Y0, float X1, float Y1) { Mesh.AddQuad({X0, Y0, 0}, {X1, Y0, 0}, {X1, Y1, 0}, {X0, Y1, 0}); };
 	AddFace(-Half, 0, O.X0, Top);
@@ -56,7 +56,7 @@ void AddShutter(FMeshBuilder& Mesh, float X, float Y0, float Y1)
 int32_t MakeWindowBay(const FCourtyard& Yard, int32_t Glass)
 {
 	constexpr float Height = UpperTop - ArcadeTop;
-	const FOpening Window{-0.5f, 0.5f, 0.95f, 2.65f, 0.22f};
+	const FWallOpening Window{-0.5f, 0.5f, 0.95f, 2.65f, 0.22f};
 	FMeshBuilder Mesh("window bay");
 	Mesh.BeginSection(Yard.M.Plaster);
 	AddWallWithOpening(Mesh, BayWidth / 2, Height, Window);
@@ -78,7 +78,7 @@ int32_t MakeWindowBay(const FCourtyard& Yard, int32_t Glass)
 int32_t MakeDoorBay(const FCourtyard& Yard)
 {
 	constexpr float Top = ArcadeTop - GalleryHeight;
-	const FOpening Door{-0.75f, 0.75f, 0.0f, 2.6f, 0.25f};
+	const FWallOpening Door{-0.75f, 0.75f, 0.0f, 2.6f, 0.25f};
 	FMeshBuilder Mesh("door bay");
 	Mesh.BeginSection(Yard.M.Plaster);
 	AddWallWithOpening(Mesh, BayWidth / 2, Top, Door);
