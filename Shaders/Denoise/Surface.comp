@@ -30,7 +30,7 @@ void main()
 		return;
 	}
 	// What is compared is what the texel before had, which has fewer bits.
-	uvec2 Reprojection = FindReprojection(View, Push.PreviousSurface, uvec2(Pixel), UnpackSurface(Packed), Motion);
+	uvec2 Reprojection = FindReprojection(View, Push.PreviousSurface, uvec2(Pixel), UnpackSurface(Packed), Motion, 1.0);
 	imageStore(UintImages[Push.OutReprojection], Pixel, uvec4(Reprojection, 0u, 0u));
 	imageStore(UintImages[Push.OutAnchors], Pixel, uvec4(FindAnchor(View, Push.PreviousAnchors, Reprojection), 0u, 0u));
 }

@@ -183,8 +183,9 @@ bool ShowedSurface(FExpectedSurface Expected, uint PreviousSurface, ivec2 Texel)
 	return IsSameSurface(Expected.Surface, LoadSurface(PreviousSurface, Texel), Expected.Distance, Expected.DistanceSlope);
 }
 
-// Returns a texel for UnpackReprojection. Motion: a texel of FGBuffer::Motion.
-uvec2 FindReprojection(FViewConstants View, uint PreviousSurface, uvec2 Pixel, FSurface Now, vec4 Motion)
+// Returns a texel for UnpackReprojection. Motion: a texel of FGBuffer::Motion. Spread: how much faster the distance changes from pixel to
+// pixel than on the surface's plane.
+uvec2 FindReprojection(FViewConstants View, uint PreviousSurface, uvec2 Pixel, FSurface Now, vec4 Motion, float Spread)
 {
 	if (!AreFinite(Motion) || Motion.z <= 0.0 || Now.Distance <= 0.0) { return uvec2(0u); }
 	vec2 Position = vec2(Pixel) + Motion.xy, Size = vec2(View.PreviousWidth, View.PreviousHeight);
@@ -200,6 +201,7 @@ uvec2 FindReprojection(FViewConstants View, uint PreviousSurface, uvec2 Pixel, F
 	Position = floor(Position * ReprojectionSteps + 0.5) / ReprojectionSteps;
 	ivec2 Base = ivec2(floor(Position));
 	FExpectedSurface Expected = ExpectSurface(View, Pixel, Now, Motion);
+	Expected.DistanceSlope *= Spread;
 	uvec2 Taps = uvec2(0u); // of the surface, of its object
 	for (int Tap = 0; Tap < 4; ++Tap)
 	{

@@ -2,7 +2,7 @@
 //
 // A mirror shows the virtual image of what it mirrors. The filter gets that image's surface in place of the mirror's own. The point that
 // was hit moves back with its object, and the mirror with its own: reflected about the plane that the mirror had, the point lies where the
-// image was. This is exact for plane mirrors, moving cameras, mirrors and objects that do not deform.
+// image was. This is exact for plane mirrors, moving cameras, mirrors and objects that do not deform. Curved.glsl has the others.
 // A lobe that is not a mirror blurs the image: the filter gets the surface that reflects, but looks for its history where the image was.
 // NO_REFLECTED_MOTION: planted fault (r.RT.Debug.Reflections.Motion).
 #version 460
@@ -17,6 +17,8 @@ layout(local_size_x = RAY_QUEUE_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FReflectionSurfaceConstants Push; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FReflectionHitRef { FReflectionHit Data[]; };
 
+#include "Curved.glsl"
+
 const float SkyDistance = 1.0e5;     // metres, beyond which nothing seems to move
 const float ImageRoughness = 0.3;    // rougher lobes show no image that could be followed
 const float StandsStill = 0.5;       // pixels by which a surface may be off that has not moved
@@ -27,13 +29,23 @@ struct FMirror
 	vec3 Now, Before;  // position
 	vec3 NormalBefore; // shading normal
 	bool bKnown;       // where it was
+	uint Object;       // into FObjectData[], or NoObject
+};
+
+// Where a pixel's reflection was.
+struct FImage
+{
+	vec3 Position;     // relative to the previous camera
+	vec3 Mirror;       // place of the mirror that showed it
+	float Spread;      // see FCurvedImage
+	bool bKnown;
 };
 
 // Motion: a texel of FGBuffer::Motion.
 FMirror FindMirror(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point, vec4 Motion)
 {
 	uint Object = Push.bNamesObjects != 0u && Motion.w >= 1.0 ? uint(Motion.w) - 1u : NoObject;
-	FMirror Mirror = FMirror(Point.Relative, Point.Relative + View.CameraMotion, Point.BentN, true);
+	FMirror Mirror = FMirror(Point.Relative, Point.Relative + View.CameraMotion, Point.BentN, true, Object);
 	if (Push.Motion == NO_TEXTURE) { return Mirror; }
 	Mirror.Before = MoveBack(Scene, View, Object, Point.Relative);
 	Mirror.NormalBefore = TurnBack(Scene, View, Object, Point.BentN);
@@ -42,18 +54,41 @@ FMirror FindMirror(FSceneConstants Scene, FViewConstants View, FGBufferPoint Poi
 	return Mirror;
 }
 
-uvec2 FindImage(FViewConstants View, ivec2 Pixel, FSurface Surface, vec3 Motion)
+// MetBefore: what the pixel shows, relative to the previous camera. Length: from the mirror to it, metres.
+FImage FindImage(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point, ivec2 Pixel, FMirror Mirror, vec4 Motion, vec3 MetBefore,
+                 float Length)
 {
-	uvec2 Reprojection = FindReprojection(View, Push.PreviousSurface, uvec2(Pixel), UnpackSurface(PackSurface(Surface)), vec4(Motion, 0.0));
+	bool bNamed = Push.bNamesObjects != 0u && Push.Motion != NO_TEXTURE;
+	float Roughness = texelFetch(Textures[Push.Pixels.Material], Pixel, 0).x;
+	FMirrorPatch Patch = FMirrorPatch(Mirror.Object, Motion.w, Roughness, Point.BentN, bNamed);
+	float Reach = Length + length(Point.Relative);
+	FCurvedImage Curved = FindInCurvedMirror(Scene, View, Patch, Pixel, MetBefore, Length, Reach);
+	if (Curved.bFlat)
+	{
+		vec3 Position = MetBefore - 2.0 * dot(Mirror.NormalBefore, MetBefore - Mirror.Before) * Mirror.NormalBefore;
+		float Far = dot(Mirror.NormalBefore, Position), Share = dot(Mirror.NormalBefore, Mirror.Before) / (Far != 0.0 ? Far : 1.0);
+		bool bBehind = Share > 0.0 && Share <= 1.0 && View.bOrthographic == 0u;
+		return FImage(Position, bBehind ? Share * Position : vec3(0.0), 1.0, Mirror.bKnown);
+	}
+	vec3 From = View.bOrthographic != 0u ? View.PreviousForward : normalize(Curved.Position);
+	vec3 Position = Curved.Position + From * distance(MetBefore, Curved.Position);
+	return FImage(Position, Curved.Position, Curved.Spread, Mirror.bKnown && Curved.bFound);
+}
+
+uvec2 FindHistory(FViewConstants View, ivec2 Pixel, FSurface Surface, vec3 Motion, float Spread)
+{
+	FSurface Stored = UnpackSurface(PackSurface(Surface));
+	uvec2 Reprojection = FindReprojection(View, Push.PreviousSurface, uvec2(Pixel), Stored, vec4(Motion, 0.0), Spread);
 	return FindAnchor(View, Push.PreviousAnchors, Reprojection);
 }
 
-// Returns the motion of the image, with the distance that the mirror had where it was.
-vec3 FollowOnMirror(FViewConstants View, FMirror Mirror, vec3 ImageBefore, vec3 Motion)
+// For r.RT.Debug.View. Red and green: from where the image came, 128 / 255 where it stood still, an eighth of a pixel each step. Blue: it
+// was not found in a curved mirror.
+void ShowMotion(ivec2 Pixel, FImage Image, vec3 Motion, bool bLooked)
 {
-	float Reach = dot(Mirror.NormalBefore, ImageBefore), Share = dot(Mirror.NormalBefore, Mirror.Before) / (Reach != 0.0 ? Reach : 1.0);
-	if (!(Share > 0.0 && Share <= 1.0) || View.bOrthographic != 0u) { return vec3(0.0); }
-	return vec3(Motion.xy, Share * dot(View.PreviousForward, ImageBefore));
+	if (Push.Picture == NO_TEXTURE) { return; }
+	vec2 Steps = clamp(round(Motion.xy * 8.0) + 128.0, vec2(0.0), vec2(255.0)) / 255.0;
+	imageStore(Images[Push.Picture], Pixel, !bLooked ? vec4(0.0, 0.0, 0.0, 1.0) : Image.bKnown ? vec4(Steps, 0.0, 1.0) : vec4(0.0, 0.0, 1.0, 1.0));
 }
 
 void main()
@@ -76,8 +111,11 @@ void main()
 #ifdef NO_REFLECTED_MOTION
 	MetBefore = Met + View.CameraMotion;
 #endif
-	vec3 ImageBefore = MetBefore - 2.0 * dot(Mirror.NormalBefore, MetBefore - Mirror.Before) * Mirror.NormalBefore;
-	vec3 ImageMotion = ComputeMotion(View, Image, ImageBefore);
+	bool bLooked = bMirror || Material.x < ImageRoughness;
+	FImage Before = FImage(vec3(0.0), vec3(0.0), 1.0, false);
+	if (bLooked) { Before = FindImage(Scene, View, Point, Pixel, Mirror, Motion, MetBefore, Length); }
+	vec3 ImageMotion = ComputeMotion(View, Image, Before.Position);
+	ShowMotion(Pixel, Before, ImageMotion, bLooked);
 
 	FSurface Surface = FSurface(dot(View.CameraForward, Point.Relative), Point.Ng, MakeIdentity(Motion.w));
 	if (bMirror)
@@ -88,15 +126,13 @@ void main()
 	uvec2 Anchor = uvec2(0u);
 	if (Push.PreviousSurface != NO_TEXTURE && Surface.Distance > 0.0)
 	{
-		if (bMirror) { Anchor = Mirror.bKnown ? FindImage(View, Pixel, Surface, ImageMotion) : uvec2(0u); }
-		else if (Material.x < ImageRoughness && Mirror.bKnown)
-		{
-			Anchor = FindImage(View, Pixel, Surface, FollowOnMirror(View, Mirror, ImageBefore, ImageMotion));
-		}
+		// Lobes that are no mirrors have the distance that the mirror had there.
+		if (!bMirror) { ImageMotion.z = dot(View.PreviousForward, Before.Mirror); }
+		if (Before.bKnown) { Anchor = FindHistory(View, Pixel, Surface, ImageMotion, bMirror ? Before.Spread : 1.0); }
 		if (!bMirror && (Anchor.x & AnchorFound) == 0u)
 		{
 			vec3 Still = ComputeMotion(View, Mirror.Now, Mirror.Before);
-			Anchor = FindImage(View, Pixel, Surface, Push.Motion != NO_TEXTURE ? Motion.xyz : Still);
+			Anchor = FindHistory(View, Pixel, Surface, Push.Motion != NO_TEXTURE ? Motion.xyz : Still, 1.0);
 		}
 	}
 	imageStore(Images[Push.OutSurface], Pixel, vec4(Surface.Distance > 0.0 ? PackSurface(Surface) : vec2(0.0), 0.0, 0.0));

@@ -37,7 +37,7 @@ struct FReflectionListConstants
 	FReflectionPixels Pixels;
 	uint Radiance, Mirrored, Surface, Anchors; // storage indices, cleared where nothing is traced; the last two may be NO_TEXTURE
 	uint FirstVoter;                 // place in FRadianceGrid::Votes from which on those of this pass lie
-	uint Pad;
+	uint Picture;                    // storage index, as in FReflectionSurfaceConstants; cleared as well
 	FReflectionFade Fade;
 	FAddress List;                   // FThreadList
 	FAddress RadianceCells;          // FRadianceGrid; 0: there are none
@@ -94,8 +94,10 @@ struct FReflectionSurfaceConstants
 	FAddress Hits;        // FReflectionHit[]
 	uint OutSurface;      // storage index
 	uint OutAnchors;      // storage index
+	uint Picture;         // storage index: where images came from, for r.RT.Debug.View; NO_TEXTURE: nobody asks
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FReflectionSurfaceConstants, 72);
+LANTERN_ASSERT_SIZE(FReflectionSurfaceConstants, 80);
 
 // Constants of Reflections/Combine.comp.
 struct FReflectionCombineConstants

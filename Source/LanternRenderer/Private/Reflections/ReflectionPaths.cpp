@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "DebugView/DebugView.h"
 #include "Denoise/Denoise.h"
 #include "Feedback/ReflectionCounter.h"
 #include "LanternCore/FrameGraph/History.h"
@@ -12,6 +13,7 @@
 #include "RadianceCells/RadianceCells.h"
 #include "Rays/ThreadList.h"
 #include "ReflectionTypes.h"
+#include "Reflections/Reflections.h"
 #include "SignalPasses.h"
 #include "TileTypes.h"
 
@@ -26,6 +28,8 @@ TRTConsoleVariable<float> CVarLitRoughness("r.RT.Reflections.LitRoughness", 0.25
     {0.0, 1.0});
 TRTConsoleVariable<bool> CVarMotion(
     "r.RT.Debug.Reflections.Motion", true, "Planted fault. If off, what a mirror shows counts as standing still, however it moves.");
+TRTConsoleVariable<bool> CVarCurvature("r.RT.Debug.Reflections.Curvature", true,
+    "Planted fault. If off, what a curved mirror showed is looked for where a flat one would have shown it.");
 const FDenoiseVariables Denoise("r.RT.Reflections", FDenoiseDefaults{.bColor = true, .HistorySeconds = 0.25f});
 constexpr float Fade = 0.1f;               // roughness over which reflections fade out
 constexpr float MirrorRoughness = 0.032f;  // IsMirror in Brdf.glsl
@@ -39,6 +43,7 @@ FShaderSource MakeSurfaceSource()
 {
 	FShaderDefines Defines = MakeValidationDefines();
 	if (!CVarMotion.GetOnRenderThread()) { Defines.emplace_back("NO_REFLECTED_MOTION", "1"); }
+	if (!CVarCurvature.GetOnRenderThread()) { Defines.emplace_back("NO_MIRROR_CURVATURE", "1"); }
 	return MakeComputeSource("Reflections/Surface.comp", std::move(Defines));
 }
 
@@ -63,6 +68,7 @@ struct FPaths
 	FGraphBuffer Hits;         ///< FReflectionHit
 	FSurfaceTextures Shown;    ///< what reflections show; Current is invalid: nobody asks
 	FGraphTexture LastAnchors; ///< of the frame before; invalid: there are none
+	FGraphTexture Picture;     ///< one of ReflectionPictures; invalid: nobody asks
 };
 
 FReflectionFade GetFade(float MaxRoughness)
@@ -108,7 +114,7 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 		DeclarePixels(Builder, GBuffer);
 		AppendToThreadList(Builder, Paths.Threads);
 		ReadRadianceCells(Builder, Paths.Cells);
-		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Mirrored, Paths.Shown.Current, Paths.Shown.Anchors})
+		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Mirrored, Paths.Shown.Current, Paths.Shown.Anchors, Paths.Picture})
 		{
 			if (Texture.IsValid()) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		}
@@ -122,6 +128,7 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 			C.Mirrored = GetStorageIndex(Pass, Paths.Mirrored);
 			C.Surface = GetStorageIndex(Pass, Paths.Shown.Current);
 			C.Anchors = GetStorageIndex(Pass, Paths.Shown.Anchors);
+			C.Picture = GetStorageIndex(Pass, Paths.Picture);
 			C.Fade = GetFade(MaxRoughness);
 			C.List = GetAddress(Pass, Paths.Threads);
 			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
@@ -177,7 +184,10 @@ void AddSurfacePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
-		for (const FGraphTexture Texture : {Paths.Shown.Current, Paths.Shown.Anchors}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
+		for (const FGraphTexture Texture : {Paths.Shown.Current, Paths.Shown.Anchors, Paths.Picture})
+		{
+			if (Texture.IsValid()) { Builder.Write(Texture, ERTAccess::StorageWrite); }
+		}
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FReflectionSurfaceConstants C{};
@@ -191,6 +201,7 @@ void AddSurfacePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 			C.Hits = GetAddress(Pass, Paths.Hits);
 			C.OutSurface = GetStorageIndex(Pass, Paths.Shown.Current);
 			C.OutAnchors = GetStorageIndex(Pass, Paths.Shown.Anchors);
+			C.Picture = GetStorageIndex(Pass, Paths.Picture);
 			DispatchThreadList(Pass, Paths.Surface, Paths.Threads, C);
 		};
 	});
@@ -286,6 +297,11 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 	Paths.Mirrored = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG32_UINT}, "ReflectedSurfaces");
 	Paths.Threads = AddThreadList(Context, Pixels, "ReflectionsThreads");
 	Paths.Hits = Context.Graph.CreateBuffer({Pixels * sizeof(FReflectionHit)}, "ReflectionHits");
+	if (bFiltered && IsDebugPicture(ReflectionPictures[0]) && !Context.DebugPicture.IsValid())
+	{
+		Paths.Picture = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "ReflectionMotion");
+		Context.DebugPicture = Paths.Picture;
+	}
 	AddListPass(Context, GBuffer, Paths);
 	AddTracePass(Context, GBuffer, Paths);
 	FGraphTexture Radiance = Paths.Radiance;

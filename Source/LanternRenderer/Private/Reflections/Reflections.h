@@ -6,6 +6,9 @@
 namespace Lantern
 {
 
+/// For r.RT.Debug.View: where what mirrors show was in the frame before. Needs the filter.
+inline constexpr const char* ReflectionPictures[] = {"reflection_motion", nullptr};
+
 FPassRays ChooseReflectionsRays(const FPassQuery& Query);
 /// Returns the roughness up to which reflections hold their share of emission. Negative: none do.
 float GetReflectedRoughness(const FPassQuery& Query);
