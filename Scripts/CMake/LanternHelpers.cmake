@@ -49,9 +49,9 @@ function(lantern_keep_apart)
     endif()
     file(READ ${FILE} TEXT)
     string(REGEX REPLACE "\n(namespace|using) [^\n]*" "" TEXT "${TEXT}")
-    string(REGEX MATCHALL "\n(struct|class|enum|enum class) [A-Za-z0-9_]+|\n[A-Za-z][A-Za-z0-9_:<>,*&. ]*[ *&][A-Za-z0-9_]+( =|{|[(][\n\t]*\"|[(][^][;()\"]*[)])"
+    string(REGEX MATCHALL "\n(struct|class|enum|enum class) [A-Za-z0-9_]+|\n[A-Za-z][A-Za-z0-9_:<>,*&. ]*[ *&][A-Za-z0-9_]+( =|{|[(][\n\t ]*\"|[(][^][;()\"]*[)])"
       NAMES "${TEXT}")
-    list(TRANSFORM NAMES REPLACE "( =|{|[(][\n\t]*\")$" "")
+    list(TRANSFORM NAMES REPLACE "( =|{|[(][\n\t ]*\")$" "")
     list(TRANSFORM NAMES REPLACE "^[^(]*[ *&]" "") # functions keep what they take
     foreach(NAME ${NAMES})
       if(NAME IN_LIST KNOWN)

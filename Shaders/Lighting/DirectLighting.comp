@@ -27,9 +27,25 @@ vec3 ShadeSky(FSceneConstants Scene, vec3 Direction)
 	return L;
 }
 
+#ifdef HAS_SUN
+// bMirror: it shows the disk of the sun as it is. The lobe of a smooth surface would have a halo around it.
+vec3 ShadeSun(FSceneConstants Scene, FGBufferPoint Point, FBrdf Brdf, vec3 LocalV, vec3 ToSun, bool bMirror)
+{
+	vec3 Diffuse, Specular;
+	EvaluateLobes(Brdf, LocalV, ToSun, Diffuse, Specular);
+	if (bMirror && Scene.SunOneMinusCos > 0.0)
+	{
+		vec3 Shown = IsInSunDisk(Scene, reflect(-Point.V, Point.BentN)) ? SunRadiance(Scene) : vec3(0.0);
+		return Diffuse * abs(ToSun.z) * Scene.SunColor * Scene.SunIrradiance + SpecularFresnel(Brdf, LocalV.z) * Shown;
+	}
+	return (Diffuse + Specular) * abs(ToSun.z) * Scene.SunColor * Scene.SunIrradiance;
+}
+#endif
+
 vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBufferPoint Point, FBrdf Brdf, mat3 Basis, vec3 LocalV)
 {
 	vec3 Radiance = vec3(0.0);
+	bool bShowsSun = IsMirror(Brdf);
 	Brdf.Alpha = max(Brdf.Alpha, 2.0 * MinAlpha); // a perfect mirror would show no point light
 	uint Channels = AllChannels;
 #ifdef HAS_LIGHT_CHANNELS
@@ -40,7 +56,7 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 	vec3 ToSun = -Scene.SunDirection * Basis;
 	if (SunVisibility > 0.0 && SunSharesChannel(Scene, Channels) && MayShow(Point, -Scene.SunDirection, ToSun.z))
 	{
-		Radiance += EvaluateBrdfCos(Brdf, LocalV, ToSun) * Scene.SunColor * (Scene.SunIrradiance * SunVisibility);
+		Radiance += ShadeSun(Scene, Point, Brdf, LocalV, ToSun, bShowsSun) * SunVisibility;
 	}
 #endif
 #ifdef HAS_LIGHTS

@@ -15,8 +15,9 @@ const float OtherTurn = 0.85;      // cosine, below which a neighbour is another
 const float OtherRoughness = 0.05; // between pixels of one mirror
 const int MirrorSteps = 6;
 const float LongestStep = 48.0;    // pixels
+const float NoMiss = 1.0e-5;       // radians: nothing has moved
 const float FoundMiss = 0.05;      // pixels: no further step is worth it
-const float MostMiss = 0.4;        // pixels: farther off, the place counts as not found
+const float MostMiss = 1.0;        // pixels: farther off, the place counts as not found
 
 // The surface of a mirror in the frame before, around a pixel of this frame.
 struct FMirrorPatch
@@ -120,9 +121,10 @@ mat2 FindMissSlopes(FSceneConstants Scene, FViewConstants View, FMirrorPatch Pat
 
 struct FCurvedImage
 {
-	vec3 Position, Normal; // of the mirror's place that showed the point, relative to the previous camera
-	float Spread;          // how much faster what is shown changes from pixel to pixel than in a flat mirror, at least 1
-	bool bFlat, bFound;    // bFlat: nothing else is known
+	vec3 Position; // of the mirror's place that showed the point, relative to the previous camera
+	vec2 Rest;     // what it is off, pixels
+	float Spread;  // how much faster what is shown changes from pixel to pixel than in a flat mirror, at least 1
+	bool bFlat, bFound; // bFlat: nothing else is known
 };
 
 // PointBefore: relative to the previous camera. Length: from the mirror to the point, metres. Reach: from the camera to the point by way of
@@ -130,16 +132,23 @@ struct FCurvedImage
 FCurvedImage FindInCurvedMirror(FSceneConstants Scene, FViewConstants View, FMirrorPatch Patch, ivec2 Pixel, vec3 PointBefore, float Length,
                                 float Reach)
 {
-	FCurvedImage Image = FCurvedImage(vec3(0.0), vec3(0.0, 0.0, 1.0), 1.0, true, false);
+	FCurvedImage Image = FCurvedImage(vec3(0.0), vec2(0.0), 1.0, true, false);
 #ifndef NO_MIRROR_CURVATURE
 	FMirrorPlace Here = FindMirrorPlace(Scene, View, Patch, vec2(Pixel));
 	if (!Here.bKnown) { return Image; }
 	mat3 Axes = MakeBasis(normalize(PointBefore - Here.Position));
+	vec2 At = vec2(Pixel), Miss = MissPoint(View, Here, PointBefore, Axes);
+	if (length(Miss) < NoMiss)
+	{
+		Image.Position = Here.Position;
+		Image.bFlat = false;
+		Image.bFound = true;
+		return Image;
+	}
 	mat2 Slopes = FindMissSlopes(Scene, View, Patch, Pixel, PointBefore, Axes, Image.bFlat);
 	if (Image.bFlat) { return Image; }
 	Image.Spread = max(length(Slopes[0]), length(Slopes[1])) * Length / (View.PixelSize * Reach);
 	Image.Spread = max(Image.Spread, 1.0);
-	vec2 At = vec2(Pixel), Miss = MissPoint(View, Here, PointBefore, Axes);
 	for (int Step = 0; Step < MirrorSteps; ++Step)
 	{
 		float Area = determinant(Slopes);
@@ -149,7 +158,7 @@ FCurvedImage FindInCurvedMirror(FSceneConstants Scene, FViewConstants View, FMir
 		if (Pixels < MostMiss)
 		{
 			Image.Position = Here.Position;
-			Image.Normal = Here.Normal;
+			Image.Rest = Move;
 			Image.bFound = true;
 			if (Pixels < FoundMiss) { break; }
 		}

@@ -37,7 +37,8 @@ struct FImage
 {
 	vec3 Position;     // relative to the previous camera
 	vec3 Mirror;       // place of the mirror that showed it
-	float Spread;      // see FCurvedImage
+	vec2 Rest;         // see FCurvedImage
+	float Spread;
 	bool bKnown;
 };
 
@@ -68,11 +69,11 @@ FImage FindImage(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point
 		vec3 Position = MetBefore - 2.0 * dot(Mirror.NormalBefore, MetBefore - Mirror.Before) * Mirror.NormalBefore;
 		float Far = dot(Mirror.NormalBefore, Position), Share = dot(Mirror.NormalBefore, Mirror.Before) / (Far != 0.0 ? Far : 1.0);
 		bool bBehind = Share > 0.0 && Share <= 1.0 && View.bOrthographic == 0u;
-		return FImage(Position, bBehind ? Share * Position : vec3(0.0), 1.0, Mirror.bKnown);
+		return FImage(Position, bBehind ? Share * Position : vec3(0.0), vec2(0.0), 1.0, Mirror.bKnown);
 	}
 	vec3 From = View.bOrthographic != 0u ? View.PreviousForward : normalize(Curved.Position);
 	vec3 Position = Curved.Position + From * distance(MetBefore, Curved.Position);
-	return FImage(Position, Curved.Position, Curved.Spread, Mirror.bKnown && Curved.bFound);
+	return FImage(Position, Curved.Position, Curved.Rest, Curved.Spread, Mirror.bKnown && Curved.bFound);
 }
 
 uvec2 FindHistory(FViewConstants View, ivec2 Pixel, FSurface Surface, vec3 Motion, float Spread)
@@ -112,9 +113,9 @@ void main()
 	MetBefore = Met + View.CameraMotion;
 #endif
 	bool bLooked = bMirror || Material.x < ImageRoughness;
-	FImage Before = FImage(vec3(0.0), vec3(0.0), 1.0, false);
+	FImage Before = FImage(vec3(0.0), vec3(0.0), vec2(0.0), 1.0, false);
 	if (bLooked) { Before = FindImage(Scene, View, Point, Pixel, Mirror, Motion, MetBefore, Length); }
-	vec3 ImageMotion = ComputeMotion(View, Image, Before.Position);
+	vec3 ImageMotion = ComputeMotion(View, Image, Before.Position) + vec3(Before.Rest, 0.0);
 	ShowMotion(Pixel, Before, ImageMotion, bLooked);
 
 	FSurface Surface = FSurface(dot(View.CameraForward, Point.Relative), Point.Ng, MakeIdentity(Motion.w));

@@ -127,6 +127,8 @@ TEST_F(FPathReuseTest, AnySizeAndRate)
 		{
 			for (const char* const Path : {"1", "2"}) // pipeline, queries
 			{
+				// Queries differ in what launches them, not in the rate. Each pair is compiled by itself.
+				if (*Path == '2' && *Rate != '2') { continue; }
 				SetVariable("r.RT.GI.Rate", Rate);
 				SetVariable("r.RT.GI.Path", Path);
 				const FImage Picture = RenderSettled(MakeView(Width, Height), 1, 24);
