@@ -32,7 +32,7 @@ if(LANTERN_UNITY)
   set(CMAKE_UNITY_BUILD ON)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
   # Names of one file's anonymous namespace are no mistake in the next one.
-  target_compile_options(LanternOptions INTERFACE -Wno-shadow -Wno-subobject-linkage)
+  target_compile_options(LanternOptions INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 
 # lantern_keep_apart(FILE …): with LANTERN_UNITY, what defines a name of another of these files is compiled alone: passes name
@@ -63,7 +63,7 @@ function(lantern_keep_apart)
 endfunction()
 
 # lantern_precompile(TARGET HEADER …): headers of others that most files read, and that take longer to read than these. Scripts/Lint
-# and the preset asan build without, so that a missing include is found.
+# without --plugin and the preset asan build without, so that a missing include is found.
 function(lantern_precompile TARGET)
   target_precompile_headers(${TARGET} PRIVATE ${ARGN})
   target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>) # for ccache

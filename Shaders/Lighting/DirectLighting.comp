@@ -33,7 +33,8 @@ vec3 ShadeSun(FSceneConstants Scene, FGBufferPoint Point, FBrdf Brdf, vec3 Local
 {
 	vec3 Diffuse, Specular;
 	EvaluateLobes(Brdf, LocalV, ToSun, Diffuse, Specular);
-	if (bMirror && Scene.SunOneMinusCos > 0.0)
+	// A disk far below a pixel would be missed: the lobe is wider.
+	if (bMirror && Scene.SunOneMinusCos > 2.0 * MinAlpha * MinAlpha)
 	{
 		vec3 Shown = IsInSunDisk(Scene, reflect(-Point.V, Point.BentN)) ? SunRadiance(Scene) : vec3(0.0);
 		return Diffuse * abs(ToSun.z) * Scene.SunColor * Scene.SunIrradiance + SpecularFresnel(Brdf, LocalV.z) * Shown;

@@ -1,9 +1,8 @@
 // Where curved mirrors showed a point in the frame before.
 //
 // A mirror showed the point where it reflected the previous camera's ray to it. That place is searched among the pixels around, moved back
-// with the mirror's object, by Newton's method in pixels. Derivatives come from neighbours some pixels away, so that bumps average out, and
-// are corrected at each step (Broyden 1965, "A Class of Methods for Solving Nonlinear Simultaneous Equations"). Place by place this is the
-// specular point of a curved mirror. It needs no history of normals, since the mirror's surface is that of this frame.
+// with the mirror's object, by Newton's method in pixels. Derivatives come from neighbours some pixels away, so that bumps average out. Each
+// step corrects them (Broyden 1965, "A Class of Methods for Solving Nonlinear Simultaneous Equations"). It needs no history of normals, since the mirror's surface is that of this frame.
 // NO_MIRROR_CURVATURE: planted fault (r.RT.Debug.Reflections.Curvature).
 #ifndef LANTERN_REFLECTIONS_CURVED_GLSL
 #define LANTERN_REFLECTIONS_CURVED_GLSL
@@ -15,7 +14,7 @@ const float OtherTurn = 0.85;      // cosine, below which a neighbour is another
 const float OtherRoughness = 0.05; // between pixels of one mirror
 const int MirrorSteps = 6;
 const float LongestStep = 48.0;    // pixels
-const float NoMiss = 1.0e-5;       // radians: nothing has moved
+const float NoMiss = 0.01;         // pixels: nothing has moved
 const float FoundMiss = 0.05;      // pixels: no further step is worth it
 const float MostMiss = 1.0;        // pixels: farther off, the place counts as not found
 
@@ -138,7 +137,8 @@ FCurvedImage FindInCurvedMirror(FSceneConstants Scene, FViewConstants View, FMir
 	if (!Here.bKnown) { return Image; }
 	mat3 Axes = MakeBasis(normalize(PointBefore - Here.Position));
 	vec2 At = vec2(Pixel), Miss = MissPoint(View, Here, PointBefore, Axes);
-	if (length(Miss) < NoMiss)
+	float PixelReach = View.PixelSize * (View.bOrthographic != 0u ? 1.0 : Reach);
+	if (length(Miss) * Length < NoMiss * PixelReach)
 	{
 		Image.Position = Here.Position;
 		Image.bFlat = false;
@@ -147,8 +147,7 @@ FCurvedImage FindInCurvedMirror(FSceneConstants Scene, FViewConstants View, FMir
 	}
 	mat2 Slopes = FindMissSlopes(Scene, View, Patch, Pixel, PointBefore, Axes, Image.bFlat);
 	if (Image.bFlat) { return Image; }
-	Image.Spread = max(length(Slopes[0]), length(Slopes[1])) * Length / (View.PixelSize * Reach);
-	Image.Spread = max(Image.Spread, 1.0);
+	Image.Spread = max(max(length(Slopes[0]), length(Slopes[1])) * Length / PixelReach, 1.0);
 	for (int Step = 0; Step < MirrorSteps; ++Step)
 	{
 		float Area = determinant(Slopes);

@@ -88,8 +88,9 @@ uvec2 FindHistory(FViewConstants View, ivec2 Pixel, FSurface Surface, vec3 Motio
 void ShowMotion(ivec2 Pixel, FImage Image, vec3 Motion, bool bLooked)
 {
 	if (Push.Picture == NO_TEXTURE) { return; }
-	vec2 Steps = clamp(round(Motion.xy * 8.0) + 128.0, vec2(0.0), vec2(255.0)) / 255.0;
-	imageStore(Images[Push.Picture], Pixel, !bLooked ? vec4(0.0, 0.0, 0.0, 1.0) : Image.bKnown ? vec4(Steps, 0.0, 1.0) : vec4(0.0, 0.0, 1.0, 1.0));
+	vec2 Steps = clamp(round(Motion.xy * 8.0) + 128.0, vec2(1.0), vec2(255.0)) / 255.0;
+	vec3 Color = Image.bKnown && Motion.z > 0.0 ? vec3(Steps, 0.0) : vec3(0.0, 0.0, 1.0);
+	imageStore(Images[Push.Picture], Pixel, vec4(bLooked ? Color : vec3(0.0), 1.0));
 }
 
 void main()
@@ -112,7 +113,9 @@ void main()
 #ifdef NO_REFLECTED_MOTION
 	MetBefore = Met + View.CameraMotion;
 #endif
-	bool bLooked = bMirror || Material.x < ImageRoughness;
+	// The sky in a mirror is not filtered.
+	bool bAsked = Push.Picture != NO_TEXTURE || (Push.PreviousSurface != NO_TEXTURE && !(bMirror && bSky));
+	bool bLooked = bAsked && (bMirror || Material.x < ImageRoughness);
 	FImage Before = FImage(vec3(0.0), vec3(0.0), vec2(0.0), 1.0, false);
 	if (bLooked) { Before = FindImage(Scene, View, Point, Pixel, Mirror, Motion, MetBefore, Length); }
 	vec3 ImageMotion = ComputeMotion(View, Image, Before.Position) + vec3(Before.Rest, 0.0);

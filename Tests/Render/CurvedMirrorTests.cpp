@@ -161,12 +161,11 @@ protected:
 				const glm::dvec3 Ray = glm::normalize(Axes * glm::dvec3(Plane, 1.0)), Origin = Now.Position;
 				const double B = glm::dot(Origin, Ray), C = glm::dot(Origin, Origin) - Case.Radius * Case.Radius, Root = B * B - C;
 				const float* Texel = &Picture.Pixels[3 * (size_t(Y) * Width + X)];
-				if (Root <= 0.0 || (Texel[0] == 0.0f && Texel[1] == 0.0f && Texel[2] == 0.0f))
-				{
-					continue;
-				} // no mirror, or the edge of one
+				const bool bBlack = Texel[0] == 0.0f && Texel[1] == 0.0f && Texel[2] == 0.0f;
+				// No mirror, or the edge of one.
+				if (Root <= 0.0 || (bBlack && Root < 0.05 * Case.Radius * Case.Radius)) { continue; }
 				++Errors.Mirrors;
-				if (Texel[2] > 0.5f)
+				if (bBlack || Texel[2] > 0.5f)
 				{
 					++Errors.Refused;
 					continue;

@@ -17,7 +17,9 @@ TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
     "Shows one signal instead of the picture, by its name as lantern reference --help lists it. The value frame shows the picture. The "
     "value sun_tiles shows what is known of each tile of the sun's shadows, and sun_rays the pixels that traced sun rays. "
     "The value lamp_tiles shows how many local lights each tile asks, and lamp_rays the rays of each pixel to them. "
-    "The value light_cells shows how many lights each light cell lists. The value radiance_cells shows the radiance cells that pixels lie "
+    "The value reflection_motion shows where what mirrors show was in the frame before, an eighth of a pixel each step of red and green, "
+    "and in blue where it was not found. The value light_cells shows how many lights each light cell lists. The value radiance_cells shows "
+    "the radiance cells that pixels lie "
     "in, "
     "darker if they have had few updates, and radiance_light the light that they know. The values PASS.confidence and PASS.change show the "
     "history of a filtered signal's pass: what it is worth, and what was dropped of it.");
