@@ -1,5 +1,6 @@
 // One pass of the edge-avoiding à-trous wavelet (Dammertz et al. 2010), steered by variance (Schied et al. 2017). The weight of a
 // tap is the likelihood that it shows the same surface and, within the noise that accumulation has left, the same value.
+// WITH_REACH: pixels say how far they reach.
 // PAIR: two signals are filtered at once. They share what surfaces say, and nothing else.
 #version 460
 #include "../Shared/DenoiseTypes.h"
@@ -59,12 +60,30 @@ struct FReach
 	float Narrow; // of the exponent by distance on the screen
 };
 
+#ifdef WITH_REACH
+// Rays of one frame are far apart in their lengths. Returns the mean of those around, pixels.
+float AverageReach(ivec2 Pixel, ivec2 Size)
+{
+	vec2 Sum = vec2(0.0);
+	for (int Tap = 0; Tap < Taps; ++Tap)
+	{
+		float Its = texelFetch(Textures[Push.Reach], clamp(GetPixel(Pixel, Tap), ivec2(0), Size - 1), 0).x;
+		if (Its > 0.0) { Sum += GetKernel(Tap) * vec2(Its, 1.0); }
+	}
+	return Sum.y > 0.0 ? Sum.x / Sum.y : 0.0;
+}
+#endif
+
 FReach MakeReach(FViewConstants View, ivec2 Pixel, FSurface Surface, vec4 Middle)
 {
 	vec3 Position = GetPosition(View, Pixel, Surface.Distance);
 	float Cosine = max(abs(dot(Surface.Normal, ViewDirection(View, Position))), 0.05);
 	float Height = Push.SigmaDepth * PixelHeight(View, Surface.Distance) * float(Push.Step) / sqrt(Cosine);
 	float Narrow = 0.0;
+#ifdef WITH_REACH
+	float Width = max(AverageReach(Pixel, ivec2(View.Width, View.Height)) / float(Push.Step), 1.0e-3);
+	Narrow = 0.5 / (Width * Width);
+#endif
 #ifdef WITH_EXTENT
 	// The reach is a part of the transition's extent: a wider one would blur the transition itself.
 	float Width = max(Push.ReachExtent * Middle.z / float(Push.Step), 1.0e-3);

@@ -52,6 +52,7 @@ void main()
 	imageStore(Images[Push.Radiance], Pixel, vec4(0.0));
 	imageStore(UintImages[Push.Mirrored], Pixel, uvec4(0u));
 	if (Push.Picture != NO_TEXTURE) { imageStore(Images[Push.Picture], Pixel, vec4(0.0, 0.0, 0.0, 1.0)); }
+	if (Push.Reach != NO_TEXTURE) { imageStore(Images[Push.Reach], Pixel, vec4(0.0)); }
 	if (Push.Surface == NO_TEXTURE) { return; }
 	imageStore(Images[Push.Surface], Pixel, vec4(0.0));
 	imageStore(UintImages[Push.Anchors], Pixel, uvec4(0u));

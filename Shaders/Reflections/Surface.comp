@@ -76,6 +76,16 @@ FImage FindImage(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point
 	return FImage(Position, Curved.Position, Curved.Rest, Curved.Spread, Mirror.bKnown && Curved.bFound);
 }
 
+// Returns how far, in pixels, the filter may reach: a quarter of the width that the lobe has where it meets what it shows. Near a contact
+// that is narrow. Three quarters of a lobe of small α are within 6.9 α radians.
+float FindReach(FViewConstants View, vec4 Material, float Length, float Distance)
+{
+	const float WidthOfLobe = 6.9, Share = 0.25, NoLimit = 65504.0;
+	float Alpha = Material.x * Material.x;
+	if (Alpha < MinAlpha || View.bOrthographic != 0u) { return NoLimit; } // a mirror's surfaces say it
+	return clamp(Share * WidthOfLobe * Alpha * Length / ((Length + Distance) * View.PixelSize), 1.0e-3, NoLimit);
+}
+
 uvec2 FindHistory(FViewConstants View, ivec2 Pixel, FSurface Surface, vec3 Motion, float Spread)
 {
 	FSurface Stored = UnpackSurface(PackSurface(Surface));
@@ -141,4 +151,5 @@ void main()
 	}
 	imageStore(Images[Push.OutSurface], Pixel, vec4(Surface.Distance > 0.0 ? PackSurface(Surface) : vec2(0.0), 0.0, 0.0));
 	imageStore(UintImages[Push.OutAnchors], Pixel, uvec4(Anchor, 0u, 0u));
+	imageStore(Images[Push.OutReach], Pixel, vec4(FindReach(View, Material, Length, length(Point.Relative)), 0.0, 0.0, 0.0));
 }

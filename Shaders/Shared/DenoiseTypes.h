@@ -74,8 +74,10 @@ struct FFilterConstants
 	float SigmaDepth;  // edge stop on the distance to the neighbour's plane, in pixel footprints
 	float ReachExtent; // WITH_EXTENT only: standard deviation of the reach, in extents
 	uint SecondInput, SecondOutput; // PAIR only, as Input and Output
+	uint Reach;        // WITH_REACH only: sampled index: FDenoiseInputs::Reach
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FFilterConstants, 56);
+LANTERN_ASSERT_SIZE(FFilterConstants, 64);
 
 LANTERN_SHARED_END
 

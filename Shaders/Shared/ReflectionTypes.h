@@ -41,8 +41,10 @@ struct FReflectionListConstants
 	FReflectionFade Fade;
 	FAddress List;                   // FThreadList
 	FAddress RadianceCells;          // FRadianceGrid; 0: there are none
+	uint Reach;                      // storage index, cleared as well; may be NO_TEXTURE
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FReflectionListConstants, 80);
+LANTERN_ASSERT_SIZE(FReflectionListConstants, 88);
 
 // How a path of a reflection ended.
 #define PATH_END_NONE 0u     // no direction left the surface
@@ -95,7 +97,7 @@ struct FReflectionSurfaceConstants
 	uint OutSurface;      // storage index
 	uint OutAnchors;      // storage index
 	uint Picture;         // storage index: where images came from, for r.RT.Debug.View; NO_TEXTURE: nobody asks
-	uint Pad;
+	uint OutReach;        // storage index: FDenoiseInputs::Reach
 };
 LANTERN_ASSERT_SIZE(FReflectionSurfaceConstants, 80);
 

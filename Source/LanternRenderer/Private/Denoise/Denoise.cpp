@@ -71,6 +71,7 @@ FShaderSource MakeFilterSource(const FDenoiseForm& Form)
 {
 	FShaderDefines Defines = MakeDefines(Form);
 	if (Form.bPair) { Defines.emplace_back("PAIR", "1"); }
+	if (Form.bReach) { Defines.emplace_back("WITH_REACH", "1"); }
 	return MakeComputeSource("Denoise/Filter.comp", std::move(Defines));
 }
 
@@ -161,13 +162,13 @@ bool FDenoiser::Prepare(const FGBuffer& GBuffer)
 	return true;
 }
 
-/// Name: of the pass. Surface: what pixels show.
-void AddFilterPass(FFrameContext& Context, const std::string& Name, FGraphTexture Surface, const FSignals& Inputs, const FSignals& Outputs,
-    const FDenoiseSettings& Settings, IRTPipeline* Pipeline, uint32_t Index)
+/// Name: of the pass. Surface: what pixels show. Reach: FDenoiseInputs::Reach.
+void AddFilterPass(FFrameContext& Context, const std::string& Name, FGraphTexture Surface, FGraphTexture Reach, const FSignals& Inputs,
+    const FSignals& Outputs, const FDenoiseSettings& Settings, IRTPipeline* Pipeline, uint32_t Index)
 {
 	Context.Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(Surface, ERTAccess::ShaderRead);
-		for (const FGraphTexture Input : Inputs)
+		for (const FGraphTexture Input : {Inputs[0], Inputs[1], Reach})
 		{
 			if (Input.IsValid()) { Builder.Read(Input, ERTAccess::ShaderRead); }
 		}
@@ -187,6 +188,7 @@ void AddFilterPass(FFrameContext& Context, const std::string& Name, FGraphTextur
 			C.Input = GetSampledIndex(Pass, Inputs[0]);
 			C.SecondInput = GetSampledIndex(Pass, Inputs[1]);
 			C.Surface = GetSampledIndex(Pass, Surface);
+			C.Reach = GetSampledIndex(Pass, Reach);
 			C.Output = GetStorageIndex(Pass, Outputs[0]);
 			C.SecondOutput = GetStorageIndex(Pass, Outputs[1]);
 			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
@@ -208,7 +210,7 @@ FSignals AddDenoise(
 		const ERTFormat Format = Context.Graph.GetDesc(Inputs->Signal).Format;
 		assert(Format == ERTFormat::R16_FLOAT || Format == ERTFormat::RGBA16_FLOAT);
 		const FDenoiseForm Form{Format == ERTFormat::RGBA16_FLOAT, Inputs->Extent.IsValid(), All.size() > 1, Inputs->Rate,
-		    Inputs->bKnownNoise, Inputs->Surface.Current.IsValid()};
+		    Inputs->bKnownNoise, Inputs->Surface.Current.IsValid(), Inputs->Reach.IsValid()};
 		assert(!Form.bExtent || !Form.bColor);
 		assert(!Form.bKnownNoise || Form.bColor);
 		assert(!Form.bPair || Form.bColor);
@@ -229,8 +231,8 @@ FSignals AddDenoise(
 	{
 		const FSignals Inputs = Results;
 		for (size_t I = 0; I < Denoisers.size(); ++I) { Results[I] = Denoisers[I].CreateImage(Pass + 1 == Passes, Pass + 1); }
-		AddFilterPass(Context, Denoisers[0].Name + "Filter" + std::to_string(Pass), Denoisers[0].GetSurface().Current, Inputs, Results,
-		    Settings, Filter, Pass);
+		AddFilterPass(Context, Denoisers[0].Name + "Filter" + std::to_string(Pass), Denoisers[0].GetSurface().Current,
+		    Denoisers[0].Inputs.Reach, Inputs, Results, Settings, Filter, Pass);
 	}
 	return Results;
 }

@@ -37,6 +37,8 @@ struct FDenoiseInputs
 	/// pixel knows of none. Negative: the pixel has no value of its own, and Signal holds what stands in for it; the filter then takes
 	/// the history, or the mean of what is around it. Invalid: as wide as can be.
 	FGraphTexture Extent;
+	/// For colours, R16_FLOAT: standard deviation of the wavelet's reach, in pixels; 0: the pixel does not say. Invalid: no limit.
+	FGraphTexture Reach;
 	/// For colours, RGBA16_FLOAT: by how much they are known to have changed since the last frame, and the standard deviation of the error
 	/// in it. Negative: the history is to be given up. Invalid: nothing is known of a change.
 	FGraphTexture Change;
@@ -68,6 +70,7 @@ struct FDenoiseForm
 	EPixelRate Rate = EPixelRate::Full; ///< FDenoiseInputs::Rate
 	bool bKnownNoise = false;           ///< FDenoiseInputs::bKnownNoise
 	bool bSparse = false;               ///< FDenoiseInputs::Surface is valid: most tiles of the screen may show nothing
+	bool bReach = false;                ///< FDenoiseInputs::Reach is valid
 };
 /// Lists the compute shaders of the filter.
 void ListDenoiseShaders(const FDenoiseForm& Form, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out);

@@ -35,7 +35,7 @@ constexpr float Fade = 0.1f;               // roughness over which reflections f
 constexpr float MirrorRoughness = 0.032f;  // IsMirror in Brdf.glsl
 constexpr uint32_t BouncesWithoutCell = 3; // of a path that would end in a cell and meets none
 
-constexpr FDenoiseForm FilterForm{.bColor = true, .bSparse = true};
+constexpr FDenoiseForm FilterForm{.bColor = true, .bSparse = true, .bReach = true};
 
 FShaderSource MakeSource(const char* Name) { return MakeComputeSource(std::string("Reflections/") + Name + ".comp"); }
 
@@ -68,6 +68,7 @@ struct FPaths
 	FGraphBuffer Hits;         ///< FReflectionHit
 	FSurfaceTextures Shown;    ///< what reflections show; Current is invalid: nobody asks
 	FGraphTexture LastAnchors; ///< of the frame before; invalid: there are none
+	FGraphTexture Reach;       ///< FDenoiseInputs::Reach; invalid: nobody asks
 	FGraphTexture Picture;     ///< one of ReflectionPictures; invalid: nobody asks
 };
 
@@ -114,7 +115,8 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 		DeclarePixels(Builder, GBuffer);
 		AppendToThreadList(Builder, Paths.Threads);
 		ReadRadianceCells(Builder, Paths.Cells);
-		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Mirrored, Paths.Shown.Current, Paths.Shown.Anchors, Paths.Picture})
+		for (const FGraphTexture Texture :
+		    {Paths.Radiance, Paths.Mirrored, Paths.Shown.Current, Paths.Shown.Anchors, Paths.Reach, Paths.Picture})
 		{
 			if (Texture.IsValid()) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		}
@@ -129,6 +131,7 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 			C.Surface = GetStorageIndex(Pass, Paths.Shown.Current);
 			C.Anchors = GetStorageIndex(Pass, Paths.Shown.Anchors);
 			C.Picture = GetStorageIndex(Pass, Paths.Picture);
+			C.Reach = GetStorageIndex(Pass, Paths.Reach);
 			C.Fade = GetFade(MaxRoughness);
 			C.List = GetAddress(Pass, Paths.Threads);
 			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
@@ -184,7 +187,7 @@ void AddSurfacePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
-		for (const FGraphTexture Texture : {Paths.Shown.Current, Paths.Shown.Anchors, Paths.Picture})
+		for (const FGraphTexture Texture : {Paths.Shown.Current, Paths.Shown.Anchors, Paths.Reach, Paths.Picture})
 		{
 			if (Texture.IsValid()) { Builder.Write(Texture, ERTAccess::StorageWrite); }
 		}
@@ -202,6 +205,7 @@ void AddSurfacePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 			C.OutSurface = GetStorageIndex(Pass, Paths.Shown.Current);
 			C.OutAnchors = GetStorageIndex(Pass, Paths.Shown.Anchors);
 			C.Picture = GetStorageIndex(Pass, Paths.Picture);
+			C.OutReach = GetStorageIndex(Pass, Paths.Reach);
 			DispatchThreadList(Pass, Paths.Surface, Paths.Threads, C);
 		};
 	});
@@ -297,6 +301,7 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 	Paths.Mirrored = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG32_UINT}, "ReflectedSurfaces");
 	Paths.Threads = AddThreadList(Context, Pixels, "ReflectionsThreads");
 	Paths.Hits = Context.Graph.CreateBuffer({Pixels * sizeof(FReflectionHit)}, "ReflectionHits");
+	if (bFiltered) { Paths.Reach = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "ReflectionReach"); }
 	if (bFiltered && IsDebugPicture(ReflectionPictures[0]) && !Context.DebugPicture.IsValid())
 	{
 		Paths.Picture = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "ReflectionMotion");
@@ -312,6 +317,7 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 		Inputs.Name = GetSignalInfo(ESignal::Reflections).Pass;
 		Inputs.Signal = Radiance;
 		Inputs.Surface = Paths.Shown;
+		Inputs.Reach = Paths.Reach;
 		Inputs.ChangedShare = AddMovedShare(Context, GBuffer, ELightFrom::SpecularLobe);
 		Radiance = AddDenoise(Context, GBuffer, Inputs, Denoise);
 	}
