@@ -80,13 +80,14 @@ FReach MakeReach(FViewConstants View, ivec2 Pixel, FSurface Surface, vec4 Middle
 	float Cosine = max(abs(dot(Surface.Normal, ViewDirection(View, Position))), 0.05);
 	float Height = Push.SigmaDepth * PixelHeight(View, Surface.Distance) * float(Push.Step) / sqrt(Cosine);
 	float Narrow = 0.0;
+#if defined(WITH_REACH) || defined(WITH_EXTENT)
 #ifdef WITH_REACH
-	float Width = max(AverageReach(Pixel, ivec2(View.Width, View.Height)) / float(Push.Step), 1.0e-3);
-	Narrow = 0.5 / (Width * Width);
-#endif
-#ifdef WITH_EXTENT
+	float Width = AverageReach(Pixel, ivec2(View.Width, View.Height));
+#else
 	// The reach is a part of the transition's extent: a wider one would blur the transition itself.
-	float Width = max(Push.ReachExtent * Middle.z / float(Push.Step), 1.0e-3);
+	float Width = Push.ReachExtent * Middle.z;
+#endif
+	Width = max(Width / float(Push.Step), 1.0e-3);
 	Narrow = 0.5 / (Width * Width);
 #endif
 	return FReach(Position, Height, Narrow);

@@ -2,7 +2,8 @@
 //
 // A mirror showed the point where it reflected the previous camera's ray to it. That place is searched among the pixels around, moved back
 // with the mirror's object, by Newton's method in pixels. Derivatives come from neighbours some pixels away, so that bumps average out. Each
-// step corrects them (Broyden 1965, "A Class of Methods for Solving Nonlinear Simultaneous Equations"). It needs no history of normals, since the mirror's surface is that of this frame.
+// step corrects them (Broyden 1965, "A Class of Methods for Solving Nonlinear Simultaneous Equations"). It needs no history of normals, since
+// the mirror's surface is that of this frame.
 // NO_MIRROR_CURVATURE: planted fault (r.RT.Debug.Reflections.Curvature).
 #ifndef LANTERN_REFLECTIONS_CURVED_GLSL
 #define LANTERN_REFLECTIONS_CURVED_GLSL
@@ -86,9 +87,9 @@ vec2 MissPoint(FViewConstants View, FMirrorPlace Place, vec3 PointBefore, mat3 A
 	return (Miss * Axes).xy;
 }
 
-// Finds how the miss changes from pixel to pixel. bFlat: the mirror does not curve, or nothing around it is known.
-mat2 FindMissSlopes(FSceneConstants Scene, FViewConstants View, FMirrorPatch Patch, ivec2 Pixel, vec3 PointBefore, mat3 Axes,
-                    out bool bFlat)
+// Finds how the miss changes from pixel to pixel. Here: place of the pixel. bFlat: the mirror does not curve, or nothing around it is known.
+mat2 FindMissSlopes(FSceneConstants Scene, FViewConstants View, FMirrorPatch Patch, FMirrorPlace Here, ivec2 Pixel, vec3 PointBefore,
+                    mat3 Axes, out bool bFlat)
 {
 	mat2 Slopes = mat2(0.0);
 	bFlat = true;
@@ -98,17 +99,14 @@ mat2 FindMissSlopes(FSceneConstants Scene, FViewConstants View, FMirrorPatch Pat
 		bool bComplete = true;
 		for (int Axis = 0; Axis < 2; ++Axis)
 		{
-			vec2 Step = Axis == 0 ? vec2(Reach, 0.0) : vec2(0.0, Reach), From = vec2(Pixel), To = From;
-			FMirrorPlace Before = FindMirrorPlace(Scene, View, Patch, From - Step), After = FindMirrorPlace(Scene, View, Patch, From + Step);
-			if (Before.bKnown) { From -= Step; }
-			else { Before = FindMirrorPlace(Scene, View, Patch, From); }
-			if (After.bKnown) { To += Step; }
-			else { After = FindMirrorPlace(Scene, View, Patch, To); }
-			bComplete = bComplete && Before.bKnown && After.bKnown && From != To;
+			vec2 Step = Axis == 0 ? vec2(Reach, 0.0) : vec2(0.0, Reach), At = vec2(Pixel);
+			FMirrorPlace Before = FindMirrorPlace(Scene, View, Patch, At - Step), After = FindMirrorPlace(Scene, View, Patch, At + Step);
+			float Pixels = float(Reach) * (float(Before.bKnown) + float(After.bKnown));
+			bComplete = Pixels > 0.0;
 			if (!bComplete) { break; }
-			float Pixels = float(Reach) * ((From == vec2(Pixel)) != (To == vec2(Pixel)) ? 1.0 : 2.0);
-			Slopes[Axis] = (MissPoint(View, After, PointBefore, Axes) -
-			                MissPoint(View, Before, PointBefore, Axes)) / Pixels;
+			if (!Before.bKnown) { Before = Here; }
+			if (!After.bKnown) { After = Here; }
+			Slopes[Axis] = (MissPoint(View, After, PointBefore, Axes) - MissPoint(View, Before, PointBefore, Axes)) / Pixels;
 			Turn = max(Turn, distance(Before.Normal, After.Normal));
 		}
 		if (!bComplete || (Turn > StrongTurn && Reach == FarReach)) { continue; }
@@ -145,7 +143,7 @@ FCurvedImage FindInCurvedMirror(FSceneConstants Scene, FViewConstants View, FMir
 		Image.bFound = true;
 		return Image;
 	}
-	mat2 Slopes = FindMissSlopes(Scene, View, Patch, Pixel, PointBefore, Axes, Image.bFlat);
+	mat2 Slopes = FindMissSlopes(Scene, View, Patch, Here, Pixel, PointBefore, Axes, Image.bFlat);
 	if (Image.bFlat) { return Image; }
 	Image.Spread = max(max(length(Slopes[0]), length(Slopes[1])) * Length / PixelReach, 1.0);
 	for (int Step = 0; Step < MirrorSteps; ++Step)

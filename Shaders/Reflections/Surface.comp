@@ -56,11 +56,10 @@ FMirror FindMirror(FSceneConstants Scene, FViewConstants View, FGBufferPoint Poi
 }
 
 // MetBefore: what the pixel shows, relative to the previous camera. Length: from the mirror to it, metres.
-FImage FindImage(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point, ivec2 Pixel, FMirror Mirror, vec4 Motion, vec3 MetBefore,
-                 float Length)
+FImage FindImage(FSceneConstants Scene, FViewConstants View, FGBufferPoint Point, ivec2 Pixel, FMirror Mirror, float Roughness, vec4 Motion,
+                 vec3 MetBefore, float Length)
 {
 	bool bNamed = Push.bNamesObjects != 0u && Push.Motion != NO_TEXTURE;
-	float Roughness = texelFetch(Textures[Push.Pixels.Material], Pixel, 0).x;
 	FMirrorPatch Patch = FMirrorPatch(Mirror.Object, Motion.w, Roughness, Point.BentN, bNamed);
 	float Reach = Length + length(Point.Relative);
 	FCurvedImage Curved = FindInCurvedMirror(Scene, View, Patch, Pixel, MetBefore, Length, Reach);
@@ -127,7 +126,7 @@ void main()
 	bool bAsked = Push.Picture != NO_TEXTURE || (Push.PreviousSurface != NO_TEXTURE && !(bMirror && bSky));
 	bool bLooked = bAsked && (bMirror || Material.x < ImageRoughness);
 	FImage Before = FImage(vec3(0.0), vec3(0.0), vec2(0.0), 1.0, false);
-	if (bLooked) { Before = FindImage(Scene, View, Point, Pixel, Mirror, Motion, MetBefore, Length); }
+	if (bLooked) { Before = FindImage(Scene, View, Point, Pixel, Mirror, Material.x, Motion, MetBefore, Length); }
 	vec3 ImageMotion = ComputeMotion(View, Image, Before.Position) + vec3(Before.Rest, 0.0);
 	ShowMotion(Pixel, Before, ImageMotion, bLooked);
 
