@@ -122,6 +122,17 @@ function(lantern_run_test NAME)
     ENVIRONMENT_MODIFICATION MESA_SHADER_CACHE_DIR=unset:)
 endfunction()
 
+# What Tests/LongTests.txt lists, as GoogleTest's filter.
+file(STRINGS ${PROJECT_SOURCE_DIR}/Tests/LongTests.txt LANTERN_LONG_TESTS REGEX "^[^#]")
+list(JOIN LANTERN_LONG_TESTS ":" LANTERN_LONG_TESTS)
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/Tests/LongTests.txt)
+
+# lantern_long_tests(PROGRAM LABEL): those of a program as a ctest entry of their own, which is slow.
+function(lantern_long_tests PROGRAM LABEL)
+  lantern_run_test(Long.${PROGRAM} COMMAND ${PROGRAM} --gtest_filter=${LANTERN_LONG_TESTS} LABELS "${LABEL};slow" TIMEOUT 14400)
+  set_tests_properties(Long.${PROGRAM} PROPERTIES FAIL_REGULAR_EXPRESSION "Running 0 tests")
+endfunction()
+
 # GoogleTest's headers, precompiled once for all test programs.
 function(lantern_precompile_test NAME)
   if(NOT TARGET LanternTestHeaders)
@@ -174,7 +185,7 @@ function(lantern_test NAME)
     return()
   endif()
   include(GoogleTest)
-  gtest_discover_tests(${NAME} DISCOVERY_TIMEOUT ${LANTERN_TEST_TIMEOUT}
+  gtest_discover_tests(${NAME} TEST_FILTER -${LANTERN_LONG_TESTS} DISCOVERY_TIMEOUT ${LANTERN_TEST_TIMEOUT}
     PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} ENVIRONMENT "XDG_CACHE_HOME=${LANTERN_TEST_CACHES}"
       ENVIRONMENT_MODIFICATION MESA_SHADER_CACHE_DIR=unset:)
 endfunction()

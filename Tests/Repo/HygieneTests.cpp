@@ -1,4 +1,5 @@
 // Sizes, and words that must not be published.
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -131,6 +132,25 @@ TEST(Hygiene, NoPathsOrHostsOfOneMachine)
 				EXPECT_EQ(File.Lines[Line].find(Word), std::string_view::npos) << At(File, Line) << ": " << Word;
 			}
 		}
+	}
+}
+
+// A test that was renamed would run in time again, and its old name would stay.
+TEST(Hygiene, LongTestsExist)
+{
+	const auto List = std::ranges::find(GetFiles(), "Tests/LongTests.txt", &FTextFile::Path);
+	ASSERT_NE(List, GetFiles().end());
+	for (size_t I = 0; I < List->Lines.size(); ++I)
+	{
+		const std::string_view Name = List->Lines[I];
+		const size_t Dot = Name.find('.');
+		if (Name.starts_with('#') || Dot == std::string_view::npos) { continue; }
+		const std::string Definition = "(" + std::string(Name.substr(0, Dot)) + ", " + std::string(Name.substr(Dot + 1)) + ")\n";
+		const bool bFound = std::ranges::any_of(GetFiles(), [&](const FTextFile& File) {
+			return IsUnder(File, "Tests") && File.Text.find("\nTEST") != std::string::npos &&
+			       File.Text.find(Definition) != std::string::npos;
+		});
+		EXPECT_TRUE(bFound) << At(*List, I);
 	}
 }
 

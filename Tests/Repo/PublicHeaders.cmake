@@ -3,6 +3,9 @@
 # The RHI's headers must be C++17 (engines include them), all others C++20.
 
 get_property(LANTERN_ALL_MODULES GLOBAL PROPERTY LANTERN_MODULES)
+if(LANTERN_UNITY)
+  list(FILTER LANTERN_ALL_MODULES INCLUDE REGEX "^(LanternRHI|LanternModuleHeaders)$") # what hosts include; 3 s for each header
+endif()
 foreach(MODULE IN LISTS LANTERN_ALL_MODULES)
   get_property(MODULE_DIR GLOBAL PROPERTY LANTERN_MODULE_DIR_${MODULE})
   file(GLOB_RECURSE HEADERS CONFIGURE_DEPENDS RELATIVE ${MODULE_DIR}/Public ${MODULE_DIR}/Public/*.h)
