@@ -145,7 +145,7 @@ TEST(Hygiene, LongTestsExist)
 		const std::string_view Name = List->Lines[I];
 		const size_t Dot = Name.find('.');
 		if (Name.starts_with('#') || Dot == std::string_view::npos) { continue; }
-		const std::string Definition = "(" + std::string(Name.substr(0, Dot)) + ", " + std::string(Name.substr(Dot + 1)) + ")\n";
+		const std::string Definition = "(" + std::string(Name.substr(0, Dot)) + ", " + std::string(Name.substr(Dot + 1)) + ")";
 		const bool bFound = std::ranges::any_of(GetFiles(), [&](const FTextFile& File) {
 			return IsUnder(File, "Tests") && File.Text.find("\nTEST") != std::string::npos &&
 			       File.Text.find(Definition) != std::string::npos;
