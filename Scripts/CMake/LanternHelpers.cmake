@@ -106,22 +106,25 @@ endfunction()
 
 # What tests leave for later ones: SPIR-V, the validation layers' verdicts, drivers' machine code. Scripts/Test empties it.
 set(LANTERN_TEST_CACHES ${CMAKE_BINARY_DIR}/Caches)
-# lavapipe compiles shaders of four lanes in 60 % of the time that it needs for eight, and they run as fast (Docs/Performance.md).
-set(LANTERN_TEST_ENVIRONMENT XDG_CACHE_HOME=${LANTERN_TEST_CACHES} LP_NATIVE_VECTOR_WIDTH=128)
 # Ends what hangs, and decides nothing else. The longest test takes 90 s on two idle cores with empty caches; single waits
 # have ten minutes (Tests/Support/WaitTools.h).
 set(LANTERN_TEST_TIMEOUT 1800)
 
-# lantern_run_test(NAME LABELS fast|… COMMAND … [TIMEOUT seconds] [ENVIRONMENT K=V …]): a program as one ctest entry.
+# lantern_run_test(NAME [TRACES] LABELS fast|… COMMAND … [TIMEOUT seconds] [ENVIRONMENT K=V …]): a program as one ctest entry. TRACES:
+# it traces rays for longer than it waits for the driver's compiler, which optimizes its shaders (Scripts/Test).
 function(lantern_run_test NAME)
-  cmake_parse_arguments(T "" "TIMEOUT" "COMMAND;LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(T "TRACES" "TIMEOUT" "COMMAND;LABELS;ENVIRONMENT" ${ARGN})
+  set(MODIFICATIONS MESA_SHADER_CACHE_DIR=unset:)
+  if(T_TRACES)
+    list(APPEND MODIFICATIONS GALLIVM_PERF=unset:)
+  endif()
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT ${LANTERN_TEST_TIMEOUT})
   endif()
   add_test(NAME ${NAME} COMMAND ${T_COMMAND})
   set_tests_properties(${NAME} PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT}
-    ENVIRONMENT "${LANTERN_TEST_ENVIRONMENT};${T_ENVIRONMENT}"
-    ENVIRONMENT_MODIFICATION MESA_SHADER_CACHE_DIR=unset:)
+    ENVIRONMENT "XDG_CACHE_HOME=${LANTERN_TEST_CACHES};${T_ENVIRONMENT}"
+    ENVIRONMENT_MODIFICATION "${MODIFICATIONS}")
 endfunction()
 
 # What Tests/LongTests.txt lists, as GoogleTest's filter.
@@ -131,7 +134,7 @@ set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEP
 
 # lantern_long_tests(PROGRAM LABEL): those of a program as a ctest entry of their own, which is slow.
 function(lantern_long_tests PROGRAM LABEL)
-  lantern_run_test(Long.${PROGRAM} COMMAND ${PROGRAM} --gtest_filter=${LANTERN_LONG_TESTS} LABELS "${LABEL};slow" TIMEOUT 14400)
+  lantern_run_test(Long.${PROGRAM} TRACES COMMAND ${PROGRAM} --gtest_filter=${LANTERN_LONG_TESTS} LABELS "${LABEL};slow" TIMEOUT 14400)
   set_tests_properties(Long.${PROGRAM} PROPERTIES FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
@@ -188,6 +191,6 @@ function(lantern_test NAME)
   endif()
   include(GoogleTest)
   gtest_discover_tests(${NAME} TEST_FILTER -${LANTERN_LONG_TESTS} DISCOVERY_TIMEOUT ${LANTERN_TEST_TIMEOUT}
-    PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} ENVIRONMENT "${LANTERN_TEST_ENVIRONMENT}"
+    PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} ENVIRONMENT "XDG_CACHE_HOME=${LANTERN_TEST_CACHES}"
       ENVIRONMENT_MODIFICATION MESA_SHADER_CACHE_DIR=unset:)
 endfunction()
