@@ -1,10 +1,12 @@
-// How much of the light that reaches each pixel, from all around or within its specular lobe, may have changed. Objects that moved hid it, shone, or reflected it: they
-// give a share. Lamps that changed give a radiance. The filter forgets as much (FDenoiseInputs::ChangedShare).
+// How much of the light that reaches each pixel, from all around or within its specular lobe, may have changed. Objects that moved hid it,
+// shone, or reflected it: they give a share. Lamps that changed give a radiance. The filter forgets as much (FDenoiseInputs::ChangedShare).
+// A mirror shows another surface, and the light is that surface's: objects that moved may also have shadowed it from the sun.
+// NO_SHOWN: planted fault (r.RT.Debug.MovedShare.Shown).
 #version 460
 #include "../Shared/MovedShareTypes.h"
 #include "../Library/Brdf.glsl"
 #include "../Library/GBuffer.glsl"
-#include "../Library/GroupBounds.glsl"
+#include "../Library/MovedCasters.glsl"
 #include "../Library/RadianceEvents.glsl"
 #include "../Tiles/Tile.glsl"
 
@@ -17,58 +19,133 @@ const float LeastShining = 0.01; // nits, times LeastShare: below any light that
 const float MostRadiance = 65504.0; // of fp16
 
 shared uint Near[SETTLED_MOST_CASTERS / 32u]; // casters that matter to the tile
+shared uint LeastPlace[3], MostPlace[3];      // box around the tile's surfaces, as GetOrder has it
+shared uint bAnyShown;
 
-void FindNear(FViewConstants View, uint Place)
+// A surface whose light is asked for.
+struct FLitSurface
 {
-	if (!HasBounds()) { return; } // no surface
-	vec4 Bound = BoundGroup(View, gl_WorkGroupID.xy * TILE_SIZE, TILE_SIZE);
-	Bound.xyz += View.CameraPosition;
+	vec3 P;      // relative to the scene's origin, metres
+	vec3 Normal;
+	vec3 Axis;   // of its specular lobe
+	float Alpha; // of that lobe; 1: its light comes from all around
+	bool bFound;
+	bool bShown; // by a mirror
+	float Identity; // of its object, with bShown: see FSurface
+};
+
+uint GetOrder(float Value)
+{
+	uint Bits = floatBitsToUint(Value);
+	return (Bits & 0x80000000u) != 0u ? ~Bits : Bits | 0x80000000u;
+}
+
+float FromOrder(uint Order) { return uintBitsToFloat((Order & 0x80000000u) != 0u ? Order ^ 0x80000000u : ~Order); }
+
+void NotePlace(FLitSurface Lit)
+{
+	for (int I = 0; I < 3; ++I)
+	{
+		atomicMin(LeastPlace[I], GetOrder(Lit.P[I]));
+		atomicMax(MostPlace[I], GetOrder(Lit.P[I]));
+	}
+	if (Lit.bShown) { bAnyShown = 1u; }
+}
+
+// Returns the sphere (xyz: relative to the scene's origin, w: radius) around what all threads have noted. Radius < 0: nothing.
+vec4 BoundPlaces()
+{
+	if (LeastPlace[0] > MostPlace[0]) { return vec4(0.0, 0.0, 0.0, -1.0); }
+	vec3 Least = vec3(FromOrder(LeastPlace[0]), FromOrder(LeastPlace[1]), FromOrder(LeastPlace[2]));
+	vec3 Most = vec3(FromOrder(MostPlace[0]), FromOrder(MostPlace[1]), FromOrder(MostPlace[2]));
+	return vec4(0.5 * (Least + Most), 0.5 * distance(Least, Most));
+}
+
+// Returns what a mirror shows. Mirror: its own surface. Nothing is found where it shows the sky.
+FLitSurface FindShown(FViewConstants View, FGBufferPoint Mirror, ivec2 Pixel)
+{
+	FSurface Image = LoadSurface(Push.Shown, Pixel);
+	float Beyond = Image.Distance - dot(View.CameraForward, Mirror.Relative), Forward = -dot(View.CameraForward, Mirror.V);
+	bool bFound = Image.Distance > 0.0 && Forward > 0.0;
+	vec3 P = Mirror.Relative + reflect(-Mirror.V, Mirror.BentN) * (bFound ? max(Beyond, 0.0) / Forward : 0.0);
+	return FLitSurface(View.CameraPosition + P, reflect(Image.Normal, Mirror.BentN), vec3(0.0), 1.0, bFound, true,
+	                   Image.Identity);
+}
+
+FLitSurface FindLit(FViewConstants View, ivec2 Pixel)
+{
+	FLitSurface Lit = FLitSurface(vec3(0.0), vec3(0.0), vec3(0.0), 1.0, false, false, 0.0);
+	float Depth = IsOutsideView(View, uvec2(Pixel)) ? 0.0 : LoadDepth(Push.Depth, Pixel);
+	if (!(Depth > 0.0)) { return Lit; }
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+	if (Push.Material != NO_TEXTURE)
+	{
+		float Roughness = texelFetch(Textures[Push.Material], Pixel, 0).x;
+		Lit.Alpha = Roughness * Roughness;
+#ifndef NO_SHOWN
+		if (Lit.Alpha < MinAlpha) { return FindShown(View, Point, Pixel); }
+#endif
+	}
+	return FLitSurface(View.CameraPosition + Point.Relative, Point.BentN, reflect(-Point.V, Point.BentN), Lit.Alpha, true, false,
+	                   0.0);
+}
+
+bool MayShadowSun(FSceneConstants Scene, FMovedCaster Caster, vec3 Center, float Radius)
+{
+	return Scene.SunIrradiance > 0.0 && MayShadow(Caster, Center, Radius, Scene.SunDirection, GetShadowSpread(Scene.SunOneMinusCos));
+}
+
+void FindNear(FSceneConstants Scene, uint Place)
+{
+	vec4 Bound = BoundPlaces();
+	if (Bound.w < 0.0) { return; }
 	for (uint I = Place; I < Push.CasterCount; I += TILE_PIXELS)
 	{
 		FMovedCaster Caster = FMovedCasterRef(Push.Casters).Data[I];
 		float Away = max(distance(Caster.To, Bound.xyz) - distance(Caster.From, Caster.To) - Bound.w, Caster.Radius);
 		float Least = (Push.Material == NO_TEXTURE ? LeastShare : LeastShareOfLobes) * Away * Away / (Caster.Radius * Caster.Radius);
-		if (2.0 * Caster.Changed > Least || Caster.Emission > LeastShining * Least) { atomicOr(Near[I >> 5u], 1u << (I & 31u)); }
+		bool bNear = 2.0 * Caster.Changed > Least || Caster.Emission > LeastShining * Least;
+		if (bNear || (bAnyShown != 0u && MayShadowSun(Scene, Caster, Bound.xyz, Bound.w))) { atomicOr(Near[I >> 5u], 1u << (I & 31u)); }
 	}
+}
+
+vec2 GetShare(FSceneConstants Scene, FMovedCaster Mover, FLitSurface Lit)
+{
+	vec2 Share = GetMovedShare(Mover, Lit.P, Lit.Normal);
+	if (Push.Material == NO_TEXTURE) { return Share; }
+	if (!Lit.bShown) { return vec2(GetMovedShareOfLobe(Mover, Lit.P, Lit.Axis, Lit.Alpha), Share.y); }
+	if (Lit.Identity == MakeIdentity(float(Mover.Object + 1u))) { return vec2(0.0, Share.y); } // its own shadow moves with it
+	bool bShadowed = dot(Lit.Normal, Scene.SunDirection) < 0.0 && MayShadowSun(Scene, Mover, Lit.P, 0.0);
+	return bShadowed ? vec2(1.0, Share.y) : Share;
 }
 
 void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	uint Place = gl_LocalInvocationIndex;
 	if (Place < SETTLED_MOST_CASTERS / 32u) { Near[Place] = 0u; }
-	if (Place == 0u) { StartBounds(); }
-	barrier();
-	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
-	bool bInside = !IsOutsideView(View, uvec2(Pixel));
-	float Depth = bInside ? LoadDepth(Push.Depth, Pixel) : 0.0;
-	vec3 P = vec3(0.0), Normal = vec3(0.0), Axis = vec3(0.0);
-	float Alpha = 1.0;
-	bool bMirror = false; // its image is followed by its own motion
-	if (Depth > 0.0)
+	if (Place < 3u)
 	{
-		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
-		P = View.CameraPosition + Point.Relative;
-		Normal = Point.BentN;
-		Axis = reflect(-Point.V, Point.BentN);
-		if (Push.Material != NO_TEXTURE) { Alpha = texelFetch(Textures[Push.Material], Pixel, 0).x; }
-		Alpha *= Alpha;
-		bMirror = Alpha < MinAlpha;
-		NoteDistance(dot(View.CameraForward, Point.Relative));
+		LeastPlace[Place] = 0xffffffffu;
+		MostPlace[Place] = 0u;
+		bAnyShown = 0u;
 	}
 	barrier();
-	FindNear(View, Place);
+	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
+	FLitSurface Lit = FindLit(View, Pixel);
+	if (Lit.bFound) { NotePlace(Lit); }
 	barrier();
-	if (!bInside) { return; }
-	vec2 Moved = vec2(0.0, Depth > 0.0 ? GetLampChange(Push.Lamps, Push.LampCount, P) : 0.0);
-	for (uint Word = 0u; Word < SETTLED_MOST_CASTERS / 32u && Depth > 0.0; ++Word)
+	FindNear(Scene, Place);
+	barrier();
+	if (IsOutsideView(View, uvec2(Pixel))) { return; }
+	vec2 Moved = vec2(0.0, Lit.bFound ? GetLampChange(Push.Lamps, Push.LampCount, Lit.P) : 0.0);
+	for (uint Word = 0u; Word < SETTLED_MOST_CASTERS / 32u && Lit.bFound; ++Word)
 	{
 		for (uint Bits = Near[Word]; Bits != 0u; Bits &= Bits - 1u)
 		{
 			FMovedCaster Mover = FMovedCasterRef(Push.Casters).Data[Word * 32u + uint(findLSB(Bits))];
-			vec2 Share = GetMovedShare(Mover, P, Normal);
-			if (Push.Material != NO_TEXTURE) { Share.x = bMirror ? 0.0 : GetMovedShareOfLobe(Mover, P, Axis, Alpha); }
-			Moved += Share;
+			Moved += GetShare(Scene, Mover, Lit);
 		}
 	}
 	Moved = mix(Moved, vec2(0.0), isnan(Moved)); // of an object whose place is no number

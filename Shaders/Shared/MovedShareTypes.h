@@ -16,7 +16,7 @@ struct FMovedShareConstants
 	uint LampCount;      // at most RADIANCE_CELL_MOST_EVENTS
 	FAddress Lamps;      // FRadianceEvent[LampCount]
 	uint Material;       // sampled index: the light of specular lobes is asked for. NO_TEXTURE: that from all around
-	uint Pad;
+	uint Shown;          // sampled index, with Material: FDenoiseInputs::Surface of what mirrors show
 };
 LANTERN_ASSERT_SIZE(FMovedShareConstants, 64);
 

@@ -23,8 +23,9 @@ struct FMovedCaster
 	vec3 To;
 	float Changed;  // about the part of what it hides, or of how it looks, that is new: 0 to 1
 	float Emission; // mean radiance of what it emits; 0 as well if that is as it was, and nothing moved
+	uint Object;    // into FObjectData[]
 };
-LANTERN_ASSERT_SIZE(FMovedCaster, 36);
+LANTERN_ASSERT_SIZE(FMovedCaster, 40);
 
 struct FSettledConstants
 {

@@ -84,7 +84,7 @@ TEST_F(FBlendedTest, TheReferenceComposesThemAlike)
 	for (const std::vector<FPane>& Panes : Stacks)
 	{
 		ASSERT_TRUE(LoadPanes(Panes));
-		ExpectClosedForm("panes", EstimateMean(LookAtWall(), 1024, 1), Compose(Panes), 0.005);
+		ExpectClosedForm("panes", EstimateMean(LookAtWall(), 256, 1), Compose(Panes), 0.005);
 	}
 }
 
@@ -263,7 +263,7 @@ TEST_F(FBlendedTest, DecalsAndClearCardsShow)
 		SetVariable("r.RT.Transmission.Path", Path);
 		EXPECT_NEAR(MeanGreen(RenderLighting(LookAtWall())), 2.0, 0.02) << "path " << Path;
 	}
-	ExpectClosedForm("decal behind clear cards", EstimateMean(LookAtWall(), 1024, 1), 2.0, 0.005);
+	ExpectClosedForm("decal behind clear cards", EstimateMean(LookAtWall(), 256, 1), 2.0, 0.005);
 }
 
 TEST_F(FBlendedTest, TransmissionCountsAlone)

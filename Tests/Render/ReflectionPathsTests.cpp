@@ -98,12 +98,31 @@ protected:
 		return Squares / Count / (Mean * Mean);
 	}
 
-	/// The reference where all things end.
-	static FImage TraceLast()
+	/// Leaves the filter nothing but what the scene says to drop histories by.
+	void KeepHistories()
+	{
+		for (const char* const Limit : {"r.RT.Reflections.ChangeSigma", "r.RT.Reflections.ClampSigma"}) { SetVariable(Limit, "0"); }
+	}
+
+	/// Share of the difference between Before and Truth that an image still shows.
+	static double MeasureKept(const FImage& Image, const FImage& Truth, const FImage& Before)
+	{
+		double Kept = 0.0, All = 0.0;
+		for (size_t I = 0; I < Truth.Pixels.size(); ++I)
+		{
+			const double Difference = double(Before.Pixels[I]) - double(Truth.Pixels[I]);
+			Kept += (double(Image.Pixels[I]) - double(Truth.Pixels[I])) * Difference;
+			All += Difference * Difference;
+		}
+		return Kept / All;
+	}
+
+	/// The reference where all things end, or as many frames before, seen from there.
+	static FImage TraceLast(uint32_t FramesBefore = 0)
 	{
 		FReferenceSettings Settings;
 		Settings.View = Look(1.0);
-		Settings.Time = Frames * FrameSeconds;
+		Settings.Time = (Frames - FramesBefore) * FrameSeconds;
 		Settings.Samples = 256;
 		Settings.Signal = ESignal::Reflections;
 		Settings.bRasterSurfaces = true;
@@ -137,10 +156,7 @@ TEST_F(FReflectionPathsTest, FlatMirrorFollowsAllMotion)
 	for (const bool bMirrorMoves : {false, true})
 	{
 		ASSERT_TRUE(LoadMirror(bMirrorMoves));
-		for (const char* const Limit : {"ChangeSigma", "ClampSigma"})
-		{
-			SetVariable((std::string("r.RT.Reflections.") + Limit).c_str(), "0");
-		}
+		KeepHistories();
 		const FImage Truth = TraceLast();
 		const double Still = MeasureError(RenderLast(false), Truth), Moving = MeasureError(RenderLast(true), Truth);
 		SetVariable("r.RT.Debug.Reflections.Motion", "0");
@@ -151,6 +167,37 @@ TEST_F(FReflectionPathsTest, FlatMirrorFollowsAllMotion)
 		EXPECT_LT(Moving, 6.0 * Still);
 		EXPECT_LT(Moving, 0.2 * Fault);
 	}
+}
+
+// A plate flies above what a mirror shows, and its shadow below it. Where the shadow was, the mirror shows light at once. Nothing else
+// that would drop histories is on. Planted fault: the mirror's is kept, since nothing moved at the mirror.
+TEST_F(FReflectionPathsTest, ShadowsOnWhatAMirrorShowsAreFollowed)
+{
+	FTestScene Room("shadow in a mirror");
+	FHostMaterial Silver;
+	Silver.Roughness = 0.0f;
+	const int32_t Mirror = Room.AddMaterial(Silver), Grey = Room.AddLambert(glm::vec3(0.6f), glm::vec3(0), true);
+	Room.AddNode(Room.AddMesh({FTestScene::MakeFloor(Grey, 12.0f)}));
+	Room.AddNode(Room.AddMesh({{Mirror, {{-3, 0, -2}, {3, 0, -2}, {3, 3, -2}, {-3, 3, -2}}}}));
+	const int32_t Plate = Room.AddNode(Room.AddMesh({{Grey, {{-0.5, 3, 0.5}, {0.5, 3, 0.5}, {0.5, 3, -0.5}, {-0.5, 3, -0.5}}}}));
+	const float Seconds = float(Frames * FrameSeconds);
+	Room.Scene.Nodes[static_cast<size_t>(Plate)].Matrix.reset();
+	Room.Scene.Animations.push_back({.Name = "Motion",
+	    .Channels = {{.Node = Plate, .Times = {0.0f, 2 * Seconds}, .Values = {glm::vec4(-2, 0, 1, 0), glm::vec4(2, 0, 1, 0)}}},
+	    .Duration = 2 * Seconds});
+	ASSERT_TRUE(Load(std::move(Room.Scene)));
+	KeepHistories();
+	SetSun(1.5, 0.5f, {0.0, -1.0, 0.05});
+	SetSky({0.3f, 0.35f, 0.4f});
+	const FImage Truth = TraceLast(), Before = TraceLast(4);
+	const double Moving = MeasureKept(RenderLast(true), Truth, Before);
+	SetVariable("r.RT.Debug.MovedShare.Shown", "0");
+	const double Fault = MeasureKept(RenderLast(true), Truth, Before);
+	SetVariable("r.RT.Debug.MovedShare.Shown", "1");
+	PrintFigure(
+	    fmt::format("kept of what was there four frames before: {:.4f}, with a mirror that keeps its history {:.4f}", Moving, Fault));
+	EXPECT_LT(std::abs(Moving), 0.04);
+	EXPECT_GT(Fault, 0.1);
 }
 
 // Two mirrors that face each other, with a lit floor between them. Paths follow some of the mirrors, and end in the light around the last:

@@ -99,8 +99,9 @@ FStabilityFault MakeStaleFault(const FMethod&)
 /// The same, where mirrors are taken for what they show.
 FStabilityFault MakeStaleMirrorFault(const FMethod&)
 {
-	return MakeFault(KnownSettings({{"r.RT.Debug.Reflections.Motion", "0"}, {"r.RT.Debug.Denoise.Validate", "0"},
-	                     {"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Reflections.HistorySeconds", "60"}}),
+	return MakeFault(
+	    KnownSettings({{"r.RT.Debug.Reflections.Motion", "0"}, {"r.RT.Debug.MovedShare.Shown", "0"}, {"r.RT.Debug.Denoise.Validate", "0"},
+	        {"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Reflections.HistorySeconds", "60"}}),
 	    "");
 }
 

@@ -12,7 +12,15 @@ namespace Lantern
 
 namespace
 {
-FShaderSource MakeSource() { return MakeComputeSource("MovedShare/MovedShare.comp", {}); }
+TRTConsoleVariable<bool> CVarShown("r.RT.Debug.MovedShare.Shown", true,
+    "Planted fault. If off, mirrors keep the light of what they show when objects move there, until the filter's clamp finds it.");
+
+FShaderSource MakeSource()
+{
+	FShaderDefines Defines;
+	if (!CVarShown.GetOnRenderThread()) { Defines.emplace_back("NO_SHOWN", "1"); }
+	return MakeComputeSource("MovedShare/MovedShare.comp", std::move(Defines));
+}
 } // namespace
 
 void ListMovedShareShaders(std::vector<FShaderSource>& Out)
@@ -20,7 +28,7 @@ void ListMovedShareShaders(std::vector<FShaderSource>& Out)
 	if (AreIndirectChangesTold()) { Out.push_back(MakeSource()); }
 }
 
-FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer, ELightFrom From)
+FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer, ELightFrom From, FGraphTexture Shown)
 {
 	if (!AreIndirectChangesTold()) { return {}; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource()); // before it is needed: then it would be too late
@@ -38,7 +46,7 @@ FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer, ELi
 	const FGraphTexture Material = From == ELightFrom::SpecularLobe ? GBuffer.Material : FGraphTexture{};
 	const FGraphTexture Share = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG16_FLOAT}, Name);
 	Context.Graph.AddPass(Name, [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, Material})
+		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, Material, Shown})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -48,6 +56,7 @@ FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer, ELi
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 			C.Material = GetSampledIndex(Pass, Material);
+			C.Shown = GetSampledIndex(Pass, Shown);
 			C.Output = GetStorageIndex(Pass, Share);
 			Dispatch2D(Pass, Pipeline, C, Width, Height, TILE_SIZE);
 		};

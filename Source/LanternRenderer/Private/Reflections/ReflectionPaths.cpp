@@ -30,7 +30,8 @@ TRTConsoleVariable<bool> CVarMotion(
     "r.RT.Debug.Reflections.Motion", true, "Planted fault. If off, what a mirror shows counts as standing still, however it moves.");
 TRTConsoleVariable<bool> CVarCurvature("r.RT.Debug.Reflections.Curvature", true,
     "Planted fault. If off, what a curved mirror showed is looked for where a flat one would have shown it.");
-const FDenoiseVariables Denoise("r.RT.Reflections", FDenoiseDefaults{.bColor = true, .HistorySeconds = 0.25f});
+// A wider edge stop spreads the edges of what is shown wherever histories are short (Docs/Performance.md, "Movers in rough reflections").
+const FDenoiseVariables Denoise("r.RT.Reflections", FDenoiseDefaults{.SigmaValue = 1.5f, .bColor = true, .HistorySeconds = 0.25f});
 constexpr float Fade = 0.1f;               // roughness over which reflections fade out
 constexpr float MirrorRoughness = 0.032f;  // IsMirror in Brdf.glsl
 constexpr uint32_t BouncesWithoutCell = 3; // of a path that would end in a cell and meets none
@@ -318,7 +319,7 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 		Inputs.Signal = Radiance;
 		Inputs.Surface = Paths.Shown;
 		Inputs.Reach = Paths.Reach;
-		Inputs.ChangedShare = AddMovedShare(Context, GBuffer, ELightFrom::SpecularLobe);
+		Inputs.ChangedShare = AddMovedShare(Context, GBuffer, ELightFrom::SpecularLobe, Paths.Shown.Current);
 		Radiance = AddDenoise(Context, GBuffer, Inputs, Denoise);
 	}
 	return AddCombinePass(Context, GBuffer, Paths, Radiance);

@@ -174,7 +174,7 @@ std::vector<FMovedCaster> FMovedCasters::Convert(FRTScene& Scene, const std::vec
 	for (const FCasterChange& Change : Changes)
 	{
 		Out.push_back({Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To),
-		    static_cast<float>(Change.Changed), static_cast<float>(std::min(Change.Emission, MostEmission))});
+		    static_cast<float>(Change.Changed), static_cast<float>(std::min(Change.Emission, MostEmission)), Change.Object});
 	}
 	return Out;
 }
