@@ -110,11 +110,14 @@ set(LANTERN_TEST_CACHES ${CMAKE_BINARY_DIR}/Caches)
 # have ten minutes (Tests/Support/WaitTools.h).
 set(LANTERN_TEST_TIMEOUT 1800)
 
+# lavapipe's caches do not tell how many lanes their code is for (Docs/Performance.md).
+set(LANTERN_TEST_LANES LP_NATIVE_VECTOR_WIDTH=set:128)
+
 # lantern_run_test(NAME [TRACES] LABELS fast|… COMMAND … [TIMEOUT seconds] [ENVIRONMENT K=V …]): a program as one ctest entry. TRACES:
 # it traces rays for longer than it waits for the driver's compiler, which optimizes its shaders (Scripts/Test).
 function(lantern_run_test NAME)
   cmake_parse_arguments(T "TRACES" "TIMEOUT" "COMMAND;LABELS;ENVIRONMENT" ${ARGN})
-  set(MODIFICATIONS MESA_SHADER_CACHE_DIR=unset:)
+  set(MODIFICATIONS ${LANTERN_TEST_LANES} MESA_SHADER_CACHE_DIR=unset:)
   if(T_TRACES)
     list(APPEND MODIFICATIONS GALLIVM_PERF=unset:)
   endif()
@@ -192,5 +195,5 @@ function(lantern_test NAME)
   include(GoogleTest)
   gtest_discover_tests(${NAME} TEST_FILTER -${LANTERN_LONG_TESTS} DISCOVERY_TIMEOUT ${LANTERN_TEST_TIMEOUT}
     PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} ENVIRONMENT "XDG_CACHE_HOME=${LANTERN_TEST_CACHES}"
-      ENVIRONMENT_MODIFICATION MESA_SHADER_CACHE_DIR=unset:)
+      ENVIRONMENT_MODIFICATION ${LANTERN_TEST_LANES}) # gtest_discover_tests keeps one element of a list
 endfunction()

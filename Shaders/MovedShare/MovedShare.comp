@@ -92,7 +92,7 @@ FLitSurface FindLit(FViewConstants View, ivec2 Pixel)
 
 bool MayShadowSun(FSceneConstants Scene, FMovedCaster Caster, vec3 Center, float Radius)
 {
-	return Scene.SunIrradiance > 0.0 && MayShadow(Caster, Center, Radius, Scene.SunDirection, GetShadowSpread(Scene.SunOneMinusCos));
+	return Caster.bCasts != 0u && Scene.SunIrradiance > 0.0 && MayShadow(Caster, Center, Radius, Scene.SunDirection, GetShadowSpread(Scene.SunOneMinusCos));
 }
 
 void FindNear(FSceneConstants Scene, uint Place)

@@ -24,8 +24,9 @@ struct FMovedCaster
 	float Changed;  // about the part of what it hides, or of how it looks, that is new: 0 to 1
 	float Emission; // mean radiance of what it emits; 0 as well if that is as it was, and nothing moved
 	uint Object;    // into FObjectData[]
+	uint bCasts;    // 0: it looks different, and no shadow has changed by that
 };
-LANTERN_ASSERT_SIZE(FMovedCaster, 40);
+LANTERN_ASSERT_SIZE(FMovedCaster, 44);
 
 struct FSettledConstants
 {

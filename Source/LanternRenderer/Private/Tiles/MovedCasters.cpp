@@ -117,6 +117,7 @@ FMovedCasters::FRecent FMovedCasters::FindMovers(FRTScene& Scene, const glm::dve
 	for (FCasterChange Other : JoinByObject(Others, false))
 	{
 		Other.From = Other.To; // a way would stand for a move
+		Other.bCasts = false;
 		Movers.push_back(Other);
 	}
 	if (Movers.size() > SETTLED_MOST_CASTERS)
@@ -174,7 +175,8 @@ std::vector<FMovedCaster> FMovedCasters::Convert(FRTScene& Scene, const std::vec
 	for (const FCasterChange& Change : Changes)
 	{
 		Out.push_back({Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To),
-		    static_cast<float>(Change.Changed), static_cast<float>(std::min(Change.Emission, MostEmission)), Change.Object});
+		    static_cast<float>(Change.Changed), static_cast<float>(std::min(Change.Emission, MostEmission)), Change.Object,
+		    Change.bCasts ? 1u : 0u});
 	}
 	return Out;
 }

@@ -19,6 +19,7 @@ struct FCasterChange
 	double Changed = 1.0;      ///< about the part of what it hides, or of how it looks, that is new: 0 to 1
 	uint32_t Object = 0;       ///< its slot, FRTObjectId::Index
 	double Emission = 0.0;     ///< mean luminance of what it emits, nits; with FAppearanceChanges: if that has changed
+	bool bCasts = true;        ///< its shadow may have changed; false with FAppearanceChanges, once both are in one list
 };
 
 class FCasterChanges
