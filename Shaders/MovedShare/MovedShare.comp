@@ -8,6 +8,7 @@
 #include "../Library/GBuffer.glsl"
 #include "../Library/MovedCasters.glsl"
 #include "../Library/RadianceEvents.glsl"
+#include "../LocalLights/TileBox.glsl"
 #include "../Tiles/Tile.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
@@ -19,7 +20,6 @@ const float LeastShining = 0.01; // nits, times LeastShare: below any light that
 const float MostRadiance = 65504.0; // of fp16
 
 shared uint Near[SETTLED_MOST_CASTERS / 32u]; // casters that matter to the tile
-shared uint LeastPlace[3], MostPlace[3];      // box around the tile's surfaces, as GetOrder has it
 shared uint bAnyShown;
 
 // A surface whose light is asked for.
@@ -34,30 +34,11 @@ struct FLitSurface
 	float Identity; // of its object, with bShown: see FSurface
 };
 
-uint GetOrder(float Value)
+// Returns the sphere (xyz: relative to the scene's origin, w: radius) around all surfaces of the tile. Radius < 0: there is none.
+vec4 BoundBox()
 {
-	uint Bits = floatBitsToUint(Value);
-	return (Bits & 0x80000000u) != 0u ? ~Bits : Bits | 0x80000000u;
-}
-
-float FromOrder(uint Order) { return uintBitsToFloat((Order & 0x80000000u) != 0u ? Order ^ 0x80000000u : ~Order); }
-
-void NotePlace(FLitSurface Lit)
-{
-	for (int I = 0; I < 3; ++I)
-	{
-		atomicMin(LeastPlace[I], GetOrder(Lit.P[I]));
-		atomicMax(MostPlace[I], GetOrder(Lit.P[I]));
-	}
-	if (Lit.bShown) { bAnyShown = 1u; }
-}
-
-// Returns the sphere (xyz: relative to the scene's origin, w: radius) around what all threads have noted. Radius < 0: nothing.
-vec4 BoundPlaces()
-{
-	if (LeastPlace[0] > MostPlace[0]) { return vec4(0.0, 0.0, 0.0, -1.0); }
-	vec3 Least = vec3(FromOrder(LeastPlace[0]), FromOrder(LeastPlace[1]), FromOrder(LeastPlace[2]));
-	vec3 Most = vec3(FromOrder(MostPlace[0]), FromOrder(MostPlace[1]), FromOrder(MostPlace[2]));
+	if (IsBoxEmpty()) { return vec4(0.0, 0.0, 0.0, -1.0); }
+	vec3 Least = BoxCorner(LowBits), Most = BoxCorner(HighBits);
 	return vec4(0.5 * (Least + Most), 0.5 * distance(Least, Most));
 }
 
@@ -97,7 +78,7 @@ bool MayShadowSun(FSceneConstants Scene, FMovedCaster Caster, vec3 Center, float
 
 void FindNear(FSceneConstants Scene, uint Place)
 {
-	vec4 Bound = BoundPlaces();
+	vec4 Bound = BoundBox();
 	if (Bound.w < 0.0) { return; }
 	for (uint I = Place; I < Push.CasterCount; I += TILE_PIXELS)
 	{
@@ -125,16 +106,13 @@ void main()
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	uint Place = gl_LocalInvocationIndex;
 	if (Place < SETTLED_MOST_CASTERS / 32u) { Near[Place] = 0u; }
-	if (Place < 3u)
-	{
-		LeastPlace[Place] = 0xffffffffu;
-		MostPlace[Place] = 0u;
-		bAnyShown = 0u;
-	}
+	StartBox(Place);
+	if (Place == 0u) { bAnyShown = 0u; }
 	barrier();
 	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
 	FLitSurface Lit = FindLit(View, Pixel);
-	if (Lit.bFound) { NotePlace(Lit); }
+	if (Lit.bFound) { GrowBox(Lit.P); }
+	if (Lit.bFound && Lit.bShown) { bAnyShown = 1u; }
 	barrier();
 	FindNear(Scene, Place);
 	barrier();
