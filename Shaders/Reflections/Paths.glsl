@@ -9,6 +9,7 @@
 #define KEEPS_HIT
 float EmissionRoughness; // the thread sets it before
 #define REFLECTED_ROUGHNESS EmissionRoughness
+#include "../Shared/DenoiseTypes.h"
 #include "../Shared/ReflectionTypes.h"
 #include "../Library/Rgbe.glsl"
 #include "../Library/UintTextures.glsl"
@@ -40,7 +41,30 @@ void CountPixel(bool bMirror, bool bSharp)
 	else if (bSharp) { atomicAdd(Counts.Data.Sharp, 1u); }
 	else { atomicAdd(Counts.Data.Wide, 1u); }
 }
+
+void CountFurther(uint Paths)
+{
+	if (Push.Statistics == FAddress(0)) { return; }
+	atomicAdd(FReflectionStatisticsRef(Push.Statistics).Data.Further, Paths);
+}
 #endif
+
+// Returns how many further paths the pixel gets. Chance decides on parts of one.
+uint GetFurtherSamples(FViewConstants View, uint Thread)
+{
+	float All = float(FThreadListRef(Push.FirstList).Header.Launch[0]), Asking = float(FThreadListRef(Push.List).Header.Launch[0]);
+	float Chance = float(HashPcg(Thread + HashPcg(View.FrameIndex + HashPcg(View.Seed))) >> 8u) * (1.0 / 16777216.0);
+	return uint(min(float(Push.SamplesPerPixel), Push.FurtherPaths * All / Asking) + Chance);
+}
+
+// Joins the mean of further paths with that of the first ones.
+void JoinFirst(ivec2 Pixel, vec3 Radiance, uint Samples)
+{
+	float Sum = float(Push.FirstSamples + Samples);
+	vec3 First = imageLoad(Images[Push.Radiance], Pixel).rgb;
+	Radiance = (First * float(Push.FirstSamples) + Radiance * float(Samples)) / Sum;
+	imageStore(Images[Push.Radiance], Pixel, RoundToHalf(vec4(Radiance, CHANCE_OF_SEVERAL + Sum / float(Push.FirstSamples))));
+}
 
 // Number: of the launch's thread.
 void ReflectPixel(uint Number)
@@ -59,14 +83,19 @@ void ReflectPixel(uint Number)
 	bKeepsEmission = bMirror;
 	EmissionRoughness = Push.EmissionRoughness;
 	FirstRayCone = MakePixelCone(View, dot(View.CameraForward, Point.Relative), bMirror ? 0.0 : Lobe.Alpha);
+	bool bFurther = Push.FirstSamples > 0u;
+	uint Samples = bFurther ? GetFurtherSamples(View, Thread) : Push.SamplesPerPixel;
+	if (Samples == 0u) { return; }
 #ifdef COUNTS_ENDS
-	CountPixel(bMirror, bLightsHits);
+	if (bFurther) { CountFurther(Samples); }
+	else { CountPixel(bMirror, bLightsHits); }
 #endif
 #ifdef RADIANCE_CELLS
 	BeginPixelLookUps(Push.RadianceCells, View, uvec2(Pixel), Push.FirstVoter);
+	if (bFurther) { RadianceVoter.Note = FAddress(0); } // the first path has voted
 	if (Push.RadianceCells != FAddress(0)) { RadianceNear = FRadianceGridRef(Push.RadianceCells).Data.NearCells; }
 #endif
-	vec3 Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, Lobe, Push.SamplesPerPixel, Push.MaxBounces, 0x9e3779b9u);
+	vec3 Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, Lobe, Samples, Push.MaxBounces, bFurther ? 0x85ebca6bu : 0x9e3779b9u);
 	float NdotV = dot(Point.BentN, Point.V);
 	vec3 Albedo = LobeAlbedo(Lobe, NdotV, Material.x);
 	Radiance /= Albedo;
@@ -78,10 +107,15 @@ void ReflectPixel(uint Number)
 		vec3 Mirrored = UnpackRgbe(Packed), Emission = KeptHit.Emission * SpecularFresnel(Lobe, NdotV) / Albedo;
 		Radiance /= Mirrored;
 		Emission += max(Radiance - MaxHalf, vec3(0.0)) * Mirrored; // what the filter could not hold
-		imageStore(UintImages[Push.Mirrored], Pixel, uvec4(Packed, PackRgbe(min(Emission, vec3(1.0e9)), vec3(0.5)), 0u, 0u));
+		if (!bFurther) { imageStore(UintImages[Push.Mirrored], Pixel, uvec4(Packed, PackRgbe(min(Emission, vec3(1.0e9)), vec3(0.5)), 0u, 0u)); }
+	}
+	if (bFurther)
+	{
+		JoinFirst(Pixel, ClampToFinite(Radiance), Samples);
+		return;
 	}
 	bool bNoise = !bMirror || KeptHit.Distance >= 0.0; // a mirror shows the sky as it is
-	imageStore(Images[Push.Radiance], Pixel, RoundToHalf(vec4(ClampToFinite(Radiance), bNoise ? 1.0 : 0.0)));
+	imageStore(Images[Push.Radiance], Pixel, RoundToHalf(vec4(ClampToFinite(Radiance), bNoise ? CHANCE_SOME : CHANCE_NONE)));
 	FReflectionHitRef(Push.Hits).Data[Number] = FReflectionHit(KeptHit.Distance, PackOct(KeptHit.Normal), KeptHit.Object);
 }
 

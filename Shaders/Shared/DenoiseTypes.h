@@ -15,6 +15,7 @@ LANTERN_SHARED_BEGIN
 #define CHANCE_OF_OTHERS 2.0 // the mean of other pixels stands for it
 #define CHANCE_OF_MANY 3.0   // chosen of many
 #define CHANCE_OF_NOBODY 4.0 // nothing was asked of dim emitters in this frame
+#define CHANCE_OF_SEVERAL 8.0 // and what is above it: the value is the mean of so many, each with the chance of others' one
 
 // Constants of Denoise/Surface.comp, which packs the surface that each pixel shows (Library/History.glsl).
 struct FSurfaceConstants

@@ -58,30 +58,50 @@ LANTERN_ASSERT_SIZE(FReflectionListConstants, 88);
 struct FReflectionStatistics
 {
 	uint Mirrors, Sharp, Wide; // pixels that traced, by roughness: IsMirror, below LitRoughness, others
+	uint Further;              // paths of the second launch, where light has changed
 	uint Lit;                  // paths whose first hit was lit by light sampling
 	uint Ends[PATH_ENDS];      // paths, by PATH_END_…
 };
-LANTERN_ASSERT_SIZE(FReflectionStatistics, 36);
+LANTERN_ASSERT_SIZE(FReflectionStatistics, 40);
 
 // Constants of Reflections/Paths.rgen and .comp.
 struct FReflectionPathConstants
 {
 	FPassConstants Pass;
 	FReflectionPixels Pixels;
-	uint Radiance; // storage index: over the directional albedo of the lobe, and of a mirrored surface. a: 0 if it has no noise, else 1
+	uint Radiance; // storage index: over the directional albedo of the lobe, and of a mirrored surface. a: CHANCE_…
 	uint Mirrored; // storage index: albedo and emission of what mirrors show, rgb9e5 each; other pixels have none
 	uint SamplesPerPixel;
 	uint MaxBounces;          // scattering events, that at the pixel included
 	float LitRoughness;       // smoother surfaces show hits by light sampling, rougher ones by radiance cells
 	float EmissionRoughness;  // rougher surfaces leave emission to light sampling
 	uint FirstVoter;          // as above
+	uint FirstSamples;        // paths that the pixels have already; 0: none. What the paths meet is then kept already, too
+	float FurtherPaths;       // with FirstSamples: paths of the launch at most, over the pixels of FirstList; SamplesPerPixel is the most of a pixel
 	uint Pad;
 	FAddress List;            // FThreadList
+	FAddress FirstList;       // with FirstSamples: FThreadList of all pixels that have paths
 	FAddress Hits;            // FReflectionHit[], by place in the list
 	FAddress RadianceCells;   // as above
 	FAddress Statistics;      // FReflectionStatistics; COUNTS_ENDS only
 };
-LANTERN_ASSERT_SIZE(FReflectionPathConstants, 96);
+LANTERN_ASSERT_SIZE(FReflectionPathConstants, 112);
+
+// Constants of Reflections/Changed.comp.
+struct FReflectionChangedConstants
+{
+	FPassConstants Pass;
+	FReflectionPixels Pixels;
+	uint Radiance;       // sampled index
+	uint Anchors;        // sampled index
+	uint History;        // sampled index: as in FTemporalConstants; NO_TEXTURE: there is none
+	uint ChangedShare;   // sampled index: FDenoiseInputs::ChangedShare
+	FAddress List;       // FThreadList: pixels that were traced
+	FAddress OutList;    // FThreadList: those that are traced further
+	float LeastFrames;   // that histories must be worth
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FReflectionChangedConstants, 72);
 
 // Constants of Reflections/Surface.comp.
 struct FReflectionSurfaceConstants

@@ -1,5 +1,7 @@
 // Reflections whose paths end in radiance cells (r.RT.Reflections 1): against the reference, and what mirrors show while all moves.
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "SignalFixture.h"
 
@@ -59,6 +61,27 @@ protected:
 		return true;
 	}
 
+	/// A mirror shows a floor, and a plate flies over it that the view does not show.
+	[[nodiscard]] bool LoadPlate()
+	{
+		FTestScene Room("shadow in a mirror");
+		FHostMaterial Silver;
+		Silver.Roughness = 0.0f;
+		const int32_t Mirror = Room.AddMaterial(Silver), Grey = Room.AddLambert(glm::vec3(0.6f), glm::vec3(0), true);
+		Room.AddNode(Room.AddMesh({FTestScene::MakeFloor(Grey, 12.0f)}));
+		Room.AddNode(Room.AddMesh({{Mirror, {{-3, 0, -2}, {3, 0, -2}, {3, 3, -2}, {-3, 3, -2}}}}));
+		const int32_t Plate = Room.AddNode(Room.AddMesh({{Grey, {{-0.5, 3, 0.5}, {0.5, 3, 0.5}, {0.5, 3, -0.5}, {-0.5, 3, -0.5}}}}));
+		const float Seconds = float(Frames * FrameSeconds);
+		Room.Scene.Nodes[static_cast<size_t>(Plate)].Matrix.reset();
+		Room.Scene.Animations.push_back({.Name = "Motion",
+		    .Channels = {{.Node = Plate, .Times = {0.0f, 2 * Seconds}, .Values = {glm::vec4(-2, 0, 1, 0), glm::vec4(2, 0, 1, 0)}}},
+		    .Duration = 2 * Seconds});
+		if (!Load(std::move(Room.Scene))) { return false; }
+		SetSun(1.5, 0.5f, {0.0, -1.0, 0.05});
+		SetSky({0.3f, 0.35f, 0.4f});
+		return true;
+	}
+
 	/// T: 0 to 1, of the camera's way.
 	static FView Look(double T)
 	{
@@ -67,17 +90,17 @@ protected:
 		return View;
 	}
 
-	/// The last of Frames, in which the camera and the scene move, or stand where they end.
-	static FImage RenderLast(bool bMoves)
+	/// The last of Frames, in which the camera and the scene move, or stand where they end. First: number of the first frame, from 1.
+	static FImage RenderLast(bool bMoves, uint32_t First = 1)
 	{
 		FFrameCapture Capture;
 		Capture.Signals.Add(ESignal::Reflections);
 		FCapturedFrame Frame;
 		GetEngine().SetFrameIndex(0); // random numbers begin anew
-		for (uint32_t I = 1; I <= Frames; ++I)
+		for (uint32_t I = First; I <= Frames; ++I)
 		{
 			FView View = Look(bMoves ? double(I) / Frames : 1.0);
-			View.bCut = I == 1;
+			View.bCut = I == First;
 			const FRTStatus Status = GetEngine().RenderFrame(View, (bMoves ? I : Frames) * FrameSeconds, Capture, &Frame);
 			EXPECT_TRUE(Status) << Status.Message;
 		}
@@ -96,6 +119,22 @@ protected:
 		}
 		const double Count = double(Truth.Pixels.size()), Mean = Sum / Count;
 		return Squares / Count / (Mean * Mean);
+	}
+
+	/// Mean square difference where Before and Truth differ by a tenth of Truth's mean or more, over the square of that mean.
+	static double MeasureErrorOfChanged(const FImage& Image, const FImage& Truth, const FImage& Before)
+	{
+		const double Count = double(Truth.Pixels.size()), Mean = std::accumulate(Truth.Pixels.begin(), Truth.Pixels.end(), 0.0) / Count;
+		double Squares = 0.0, Changed = 0.0;
+		for (size_t I = 0; I < Truth.Pixels.size(); ++I)
+		{
+			if (std::abs(double(Before.Pixels[I]) - double(Truth.Pixels[I])) < 0.1 * Mean) { continue; }
+			const double Difference = double(Image.Pixels[I]) - double(Truth.Pixels[I]);
+			Squares += Difference * Difference;
+			Changed += 1.0;
+		}
+		EXPECT_GT(Changed, 50.0);
+		return Squares / std::max(Changed, 1.0) / (Mean * Mean);
 	}
 
 	/// Leaves the filter nothing but what the scene says to drop histories by.
@@ -173,22 +212,8 @@ TEST_F(FReflectionPathsTest, FlatMirrorFollowsAllMotion)
 // that would drop histories is on. Planted fault: the mirror's is kept, since nothing moved at the mirror.
 TEST_F(FReflectionPathsTest, ShadowsOnWhatAMirrorShowsAreFollowed)
 {
-	FTestScene Room("shadow in a mirror");
-	FHostMaterial Silver;
-	Silver.Roughness = 0.0f;
-	const int32_t Mirror = Room.AddMaterial(Silver), Grey = Room.AddLambert(glm::vec3(0.6f), glm::vec3(0), true);
-	Room.AddNode(Room.AddMesh({FTestScene::MakeFloor(Grey, 12.0f)}));
-	Room.AddNode(Room.AddMesh({{Mirror, {{-3, 0, -2}, {3, 0, -2}, {3, 3, -2}, {-3, 3, -2}}}}));
-	const int32_t Plate = Room.AddNode(Room.AddMesh({{Grey, {{-0.5, 3, 0.5}, {0.5, 3, 0.5}, {0.5, 3, -0.5}, {-0.5, 3, -0.5}}}}));
-	const float Seconds = float(Frames * FrameSeconds);
-	Room.Scene.Nodes[static_cast<size_t>(Plate)].Matrix.reset();
-	Room.Scene.Animations.push_back({.Name = "Motion",
-	    .Channels = {{.Node = Plate, .Times = {0.0f, 2 * Seconds}, .Values = {glm::vec4(-2, 0, 1, 0), glm::vec4(2, 0, 1, 0)}}},
-	    .Duration = 2 * Seconds});
-	ASSERT_TRUE(Load(std::move(Room.Scene)));
+	ASSERT_TRUE(LoadPlate());
 	KeepHistories();
-	SetSun(1.5, 0.5f, {0.0, -1.0, 0.05});
-	SetSky({0.3f, 0.35f, 0.4f});
 	const FImage Truth = TraceLast(), Before = TraceLast(4);
 	const double Moving = MeasureKept(RenderLast(true), Truth, Before);
 	SetVariable("r.RT.Debug.MovedShare.Shown", "0");
@@ -198,6 +223,41 @@ TEST_F(FReflectionPathsTest, ShadowsOnWhatAMirrorShowsAreFollowed)
 	    fmt::format("kept of what was there four frames before: {:.4f}, with a mirror that keeps its history {:.4f}", Moving, Fault));
 	EXPECT_LT(std::abs(Moving), 0.04);
 	EXPECT_GT(Fault, 0.1);
+}
+
+// Where a mirror shows light that has changed, more paths are traced: few of them, and no more than the budget. Where nothing moves, there are
+// none. Planted fault: such pixels have the one path of others.
+TEST_F(FReflectionPathsTest, ChangedLightTakesFurtherPaths)
+{
+	ASSERT_TRUE(LoadPlate());
+	SetVariable("r.RT.Rays.CountEnds", "1");
+	const FImage Truth = TraceLast(), Before = TraceLast(4);
+	const auto Measure = [&](bool bMoves, uint32_t First, FReflectionCounts& OutCounts) {
+		const double Error = MeasureErrorOfChanged(RenderLast(bMoves, First), Truth, Before);
+		EXPECT_OK(GetEngine().GetRenderer().WaitForAll());
+		OutCounts = GetEngine().GetRenderer().GetReflectionCounts();
+		return Error;
+	};
+	FReflectionCounts Right, Still, Few, None;
+	const double Error = Measure(true, 1, Right);
+	Measure(false, Frames - 12, Still);
+	SetVariable("r.RT.Reflections.ChangedPaths", "0.125");
+	Measure(true, Frames - 12, Few);
+	SetVariable("r.RT.Reflections.ChangedPaths", "1");
+	SetVariable("r.RT.Reflections.ChangedSamples", "1");
+	const double Fault = Measure(true, 1, None);
+	SetVariable("r.RT.Reflections.ChangedSamples", "4");
+	SetVariable("r.RT.Rays.CountEnds", "0");
+	PrintFigure(fmt::format("relative square error where light has changed {:.5f} with {} further paths beside {}, {:.5f} without", Error,
+	    Right.Further, Right.Mirrors, Fault));
+	EXPECT_LT(Error, 0.5 * Fault);
+	EXPECT_EQ(Right.Further % 3, 0u) << "each of these pixels has four";
+	EXPECT_GT(Right.Further, 0u);
+	EXPECT_LT(Right.Further, Right.Mirrors);
+	EXPECT_EQ(Still.Further, 0u);
+	EXPECT_GT(Few.Further, 0u);
+	EXPECT_LT(Few.Further, Few.Mirrors / 7);
+	EXPECT_EQ(None.Further, 0u);
 }
 
 // Two mirrors that face each other, with a lit floor between them. Paths follow some of the mirrors, and end in the light around the last:
@@ -234,7 +294,8 @@ TEST_F(FReflectionPathsTest, FacingMirrorsAreNotBlack)
 	const FReflectionCounts Counts = GetEngine().GetRenderer().GetReflectionCounts();
 	EXPECT_GT(Counts.Mirrors, 4000u);
 	EXPECT_EQ(Counts.Sharp + Counts.Wide, 0u) << "the floor has no reflections";
-	EXPECT_EQ(Counts.Sky + Counts.Cells + Counts.StandIns + Counts.Dark + Counts.None, Counts.Mirrors) << "each path has one end";
+	EXPECT_EQ(Counts.Sky + Counts.Cells + Counts.StandIns + Counts.Dark + Counts.None, Counts.Mirrors + Counts.Further)
+	    << "each path has one end";
 	EXPECT_GT(Counts.StandIns, Counts.Mirrors / 10);
 	EXPECT_LT(Counts.Dark, Counts.Mirrors / 20);
 	SetVariable("r.RT.Rays.CountEnds", "0");

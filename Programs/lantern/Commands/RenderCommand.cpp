@@ -130,8 +130,9 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 	}
 	if (const FReflectionCounts& Counts = Renderer.GetReflectionCounts(); Counts.Frames > 0)
 	{
-		Json["path_ends"] = {{"mirrors", Counts.Mirrors}, {"sharp", Counts.Sharp}, {"wide", Counts.Wide}, {"hit_lit", Counts.Lit},
-		    {"sky", Counts.Sky}, {"cache", Counts.Cells}, {"stand_in", Counts.StandIns}, {"dark", Counts.Dark}, {"none", Counts.None}};
+		Json["path_ends"] = {{"mirrors", Counts.Mirrors}, {"sharp", Counts.Sharp}, {"wide", Counts.Wide}, {"further", Counts.Further},
+		    {"hit_lit", Counts.Lit}, {"sky", Counts.Sky}, {"cache", Counts.Cells}, {"stand_in", Counts.StandIns}, {"dark", Counts.Dark},
+		    {"none", Counts.None}};
 	}
 	Json["load_seconds"] = Session.GetLoadSeconds();
 	return Json;

@@ -30,7 +30,8 @@ float GetMinAlpha()
 	return Push.MinAlpha;
 #else
 	// What was chosen of many has more noise than half a second averages.
-	return LoadChance() >= CHANCE_OF_MANY ? 0.5 * Push.MinAlpha : Push.MinAlpha;
+	float Chance = LoadChance();
+	return Chance == CHANCE_OF_MANY || Chance == CHANCE_OF_NOBODY ? 0.5 * Push.MinAlpha : Push.MinAlpha;
 #endif
 }
 
@@ -64,7 +65,7 @@ FAccumulated FillIn(FFrameEstimate Frame, FHistory History, float Noise, float U
 {
 	FAccumulated Past = History.Past;
 #if CHANNELS != 1 && !defined(KNOWN_NOISE)
-	if (Past.Frames > 0.0 && bTileFilled[GetTileIndex(ivec2(0))])
+	if (Past.Frames > 0.0 && IsFilled())
 	{
 		const float Others = 2.0; // of which it is the mean, at least
 		float Share = History.ResamplingVariance / (History.ResamplingVariance + Noise * (1.0 / Past.Frames + 1.0 / Others) + 1.0e-12);
@@ -80,8 +81,7 @@ FAccumulated FillIn(FFrameEstimate Frame, FHistory History, float Noise, float U
 #elif defined(KNOWN_NOISE)
 	FSignal Around = Frame.Value;
 #else
-	bool bFilled = bTileFilled[GetTileIndex(ivec2(0))];
-	FSignal Around = bFilled ? Frame.Value : Frame.Window.Mean;
+	FSignal Around = IsFilled() ? Frame.Value : Frame.Window.Mean;
 #endif
 	return FAccumulated(Around, sqrt(Noise), 0.0, Frame.Neighborhood.Mean);
 }

@@ -6,6 +6,7 @@
 #ifndef LANTERN_TEMPORAL_FOLLOW_GLSL
 #define LANTERN_TEMPORAL_FOLLOW_GLSL
 
+#include "../ChangedShare.glsl"
 #include "Types.glsl"
 
 #if CHANNELS != 1
@@ -14,9 +15,9 @@ void FollowShare(ivec2 Pixel, FFrameEstimate Frame, inout FHistory History)
 {
 	if (Push.ChangedShare == NO_TEXTURE) { return; }
 	vec2 Changed = texelFetch(Textures[Push.ChangedShare], Pixel, 0).xy;
-	float Brightness = max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean), Error = Changed.x * Brightness + Changed.y;
-	if (!(Error > 0.0) || isinf(Error)) { return; }
-	History.Past.Frames *= 1.0 - min(Error / max(Brightness, 1.0e-20), 1.0);
+	float Brightness = max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean), Error = GetChangeError(Changed, Brightness);
+	if (Error <= 0.0) { return; }
+	History.Past.Frames *= GetKeptShare(Error, Brightness);
 	History.ResamplingVariance += Error * Error;
 }
 

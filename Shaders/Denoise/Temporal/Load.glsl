@@ -23,7 +23,7 @@ const int TileSize = InnerSize + 2;
 shared FSignal TileSignal[TileSize * TileSize];
 shared float TileInverseDepth[TileSize * TileSize]; // 1 / distance, linear in screen space over a plane; 0: no value
 #if CHANNELS != 1
-shared bool bTileFilled[TileSize * TileSize]; // the mean of other pixels stands for the pixel's own value
+shared float TileRays[TileSize * TileSize]; // rays that a value is worth, of what most have; 0: the mean of other pixels stands for it
 #endif
 #ifdef WITH_EXTENT
 shared float TileExtent[TileSize * TileSize]; // pixels; 0: unknown
@@ -48,6 +48,11 @@ int GetTileIndex(ivec2 Offset)
 	return P.y * TileSize + P.x;
 }
 
+#if CHANNELS != 1
+// Chance: CHANCE_….
+float GetRays(float Chance) { return Chance > CHANCE_OF_SEVERAL && IsFinite(Chance) ? Chance - CHANCE_OF_SEVERAL : Chance == CHANCE_OF_OTHERS ? 0.0 : 1.0; }
+#endif
+
 // Returns whether any pixel that the thread has loaded has a signal.
 bool LoadTile(ivec2 Size)
 {
@@ -71,7 +76,7 @@ bool LoadTile(ivec2 Size)
 		TileSignal[I] = SanitizeSignal(Value, bValid);
 #endif
 #if CHANNELS != 1
-		bTileFilled[I] = Texel.w == CHANCE_OF_OTHERS;
+		TileRays[I] = GetRays(Texel.w);
 		bAny = bAny || GetBrightness(TileSignal[I]) > 0.0;
 #endif
 	}
@@ -81,6 +86,9 @@ bool LoadTile(ivec2 Size)
 #if CHANNELS != 1
 // Returns CHANCE_… of the pixel's value.
 float LoadChance() { return texelFetch(Textures[Push.Signal], ivec2(gl_GlobalInvocationID.xy), 0).w; }
+
+// Whether the mean of other pixels stands for the pixel's own value.
+bool IsFilled() { return TileRays[GetTileIndex(ivec2(0))] <= 0.0; }
 
 // Whether the pixel has a value without noise, which other frames could only blur.
 bool IsCertain() { return LoadChance() == CHANCE_NONE && TileInverseDepth[GetTileIndex(ivec2(0))] > 0.0; }
@@ -93,7 +101,7 @@ bool HasValue(int I)
 	if (TileSignal[I] < 0.0) { return false; }
 #endif
 #if CHANNELS != 1
-	if (bTileFilled[I]) { return false; }
+	if (TileRays[I] <= 0.0) { return false; }
 #endif
 	return TileInverseDepth[I] > 0.0;
 }

@@ -46,7 +46,7 @@ float MeasureOutlier(int I)
 	if (!HasValue(I)) { return -1.0; }
 	int StepX = 1, StepY = TileSize;
 #if CHANNELS != 1
-	if (bTileFilled[I - 1] || bTileFilled[I + 1]) // every other pixel has a value: the next ones lie across corners
+	if (TileRays[I - 1] <= 0.0 || TileRays[I + 1] <= 0.0) // every other pixel has a value: the next ones lie across corners
 	{
 		StepX = TileSize + 1;
 		StepY = TileSize - 1;
@@ -61,7 +61,14 @@ float MeasureOutlier(int I)
 	if (bX && bY) { Range = vec2(max(min(X.x, X.y), min(Y.x, Y.y)), min(max(X.x, X.y), max(Y.x, Y.y))); }
 	float Value = GetBrightness(TileSignal[I]);
 	float Outlier = Value - clamp(Value, min(Range.x, Range.y), max(Range.x, Range.y));
+#if CHANNELS != 1
+	// As if all had one ray.
+	vec2 Others = 0.5 * (1.0 / vec2(TileRays[I - StepX], TileRays[I - StepY]) + 1.0 / vec2(TileRays[I + StepX], TileRays[I + StepY]));
+	float Inverse = bX && bY ? 0.5 * (Others.x + Others.y) : bX ? Others.x : Others.y;
+	return Outlier * Outlier * 2.0 / (1.0 / TileRays[I] + Inverse);
+#else
 	return Outlier * Outlier;
+#endif
 }
 
 void MeasureOutliers()

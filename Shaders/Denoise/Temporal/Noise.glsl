@@ -90,8 +90,9 @@ FFrameEstimate EstimateFrame()
 	return FFrameEstimate(TileSignal[Own], HasValue(Own), Neighborhood, Noise, LoadRays(), MeasureExtent());
 #else
 	FWindow Window = MeasureWindow();
-	float Noise = Neighborhood.OutlierVariance >= 0.0 ? Neighborhood.OutlierVariance : Window.Variance;
-	return FFrameEstimate(TileSignal[Own], HasValue(Own), Window, Neighborhood, Noise, 1.0, MeasureExtent());
+	float Rays = max(TileRays[Own], 1.0);
+	float Noise = Neighborhood.OutlierVariance >= 0.0 ? Neighborhood.OutlierVariance : Window.Variance * Rays;
+	return FFrameEstimate(TileSignal[Own], HasValue(Own), Window, Neighborhood, Noise, Rays, MeasureExtent());
 #endif
 }
 

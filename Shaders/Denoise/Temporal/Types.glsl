@@ -22,8 +22,8 @@ struct FFrameEstimate
 	FWindow Window;
 #endif
 	FNeighborhood Neighborhood;
-	float NoiseVariance; // variance of one frame's value; for visibility as if every transition were soft
-	float Rays;          // of which the value is the mean, in units of Push.RaysPerPixel
+	float NoiseVariance; // variance of a value of one unit of rays; for visibility as if every transition were soft
+	float Rays;          // of which the value is the mean. Its unit: what most pixels have, for visibility Push.RaysPerPixel
 	float Extent;        // width of the transition (penumbra), pixels; MaxHalf: as wide as can be
 };
 

@@ -32,7 +32,7 @@ void SumWindowRows()
 		float Count = 0.0;
 		[[dont_unroll]] for (int X = ToValue.x; X < WindowWidth; X += ValueStep)
 		{
-			if (bTileFilled[Start + X]) { continue; } // means of others have less spread
+			if (TileRays[Start + X] <= 0.0) { continue; } // means of others have less spread
 			FSignal Value = TileSignal[Start + X];
 			Sum += Value;
 			Squares += Value * Value;

@@ -26,7 +26,8 @@ struct FDenoiseInputs
 	/// RGBA16_FLOAT: a colour, ≥ 0. Its fourth channel is 0 where the colour has no noise. It is 2 where the
 	/// mean of other pixels stands for the pixel's own, which the filter takes only without a history. It is 3 where
 	/// the value was chosen of many, which is noisy: its history lasts twice as long. It is 4 where nothing was asked of
-	/// dim emitters in this frame, which says nothing of their light. It is 1 elsewhere.
+	/// dim emitters in this frame, which says nothing of their light. Above 8, it is 8 plus the number of values of others that
+	/// this one is worth, since it has more rays. It is 1 elsewhere.
 	FGraphTexture Signal;
 	/// For colours: the fourth channel is instead the standard deviation of the pixel's brightness, over that brightness. Negative: the
 	/// pixel has no value. Neither changes are looked for then, nor is a history clamped.

@@ -13,7 +13,7 @@ TRTConsoleVariable<bool> CVarCount("r.RT.Rays.CountEnds", false,
 
 FReflectionCounts MakeCounts(const FReflectionStatistics& Of)
 {
-	return {Of.Mirrors, Of.Sharp, Of.Wide, Of.Lit, Of.Ends[PATH_END_SKY], Of.Ends[PATH_END_CELL], Of.Ends[PATH_END_STAND_IN],
+	return {Of.Mirrors, Of.Sharp, Of.Wide, Of.Further, Of.Lit, Of.Ends[PATH_END_SKY], Of.Ends[PATH_END_CELL], Of.Ends[PATH_END_STAND_IN],
 	    Of.Ends[PATH_END_DARK], Of.Ends[PATH_END_NONE], 0};
 }
 } // namespace

@@ -26,6 +26,15 @@ TRTConsoleVariable<float> CVarLitRoughness("r.RT.Reflections.LitRoughness", 0.25
     "Smoother surfaces show what they mirror lit by the sun and lamps, and further surfaces by radiance cells. Rougher ones show radiance "
     "cells, which are cheaper and blurred.",
     {0.0, 1.0});
+TRTConsoleVariable<int32_t> CVarChangedSamples("r.RT.Reflections.ChangedSamples", 4,
+    "Number of paths of a mirror's pixel that shows something new while objects move, or whose light they have changed. Others have "
+    "r.RT.Reflections.Samples. No more than these: all pixels are alike.",
+    {1, 64});
+TRTConsoleVariable<float> CVarChangedFrames("r.RT.Reflections.ChangedFrames", 4.0f,
+    "Number of frames that the history of such a pixel must still be worth, or it has r.RT.Reflections.ChangedSamples paths.", {1.0, 64.0});
+TRTConsoleVariable<float> CVarChangedPaths("r.RT.Reflections.ChangedPaths", 1.0f,
+    "Further paths of a frame for such pixels, at most, over the number of pixels that have a path. If more ask, each gets fewer.",
+    {0.0, 64.0});
 TRTConsoleVariable<bool> CVarMotion(
     "r.RT.Debug.Reflections.Motion", true, "Planted fault. If off, what a mirror shows counts as standing still, however it moves.");
 TRTConsoleVariable<bool> CVarCurvature("r.RT.Debug.Reflections.Curvature", true,
@@ -60,17 +69,18 @@ struct FPaths
 {
 	FReflectionPathSettings Settings;
 	FRayDispatch Dispatch;
-	IRTPipeline *List = nullptr, *Surface = nullptr, *Combine = nullptr;
+	IRTPipeline *List = nullptr, *Surface = nullptr, *Changed = nullptr, *Combine = nullptr;
 	const FRadianceCells* Cells = nullptr; ///< null: there are none
 	uint32_t FirstVoter = 0;
-	FGraphTexture Radiance;    ///< over the directional albedo of lobes, and of what mirrors show
-	FGraphTexture Mirrored;    ///< albedo and emission of what mirrors show
-	FGraphBuffer Threads;      ///< list of pixels, row by row
-	FGraphBuffer Hits;         ///< FReflectionHit
-	FSurfaceTextures Shown;    ///< what reflections show; Current is invalid: nobody asks
-	FGraphTexture LastAnchors; ///< of the frame before; invalid: there are none
-	FGraphTexture Reach;       ///< FDenoiseInputs::Reach; invalid: nobody asks
-	FGraphTexture Picture;     ///< one of ReflectionPictures; invalid: nobody asks
+	FGraphTexture Radiance;      ///< over the directional albedo of lobes, and of what mirrors show
+	FGraphTexture Mirrored;      ///< albedo and emission of what mirrors show
+	FGraphBuffer Threads;        ///< list of pixels, row by row
+	FGraphBuffer ChangedThreads; ///< list of those that are traced further; invalid: none are
+	FGraphBuffer Hits;           ///< FReflectionHit
+	FSurfaceTextures Shown;      ///< what reflections show; Current is invalid: nobody asks
+	FGraphTexture LastAnchors;   ///< of the frame before; invalid: there are none
+	FGraphTexture Reach;         ///< FDenoiseInputs::Reach; invalid: nobody asks
+	FGraphTexture Picture;       ///< one of ReflectionPictures; invalid: nobody asks
 };
 
 FReflectionFade GetFade(float MaxRoughness)
@@ -142,37 +152,61 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 	});
 }
 
-void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths)
+/// Number of paths that pixels whose light has changed have beside those of others.
+uint32_t GetFurtherSamples(const FReflectionPathSettings& Settings)
+{
+	const uint32_t Changed = static_cast<uint32_t>(CVarChangedSamples.GetOnRenderThread());
+	return Changed > Settings.Samples ? Changed - Settings.Samples : 0;
+}
+
+/// bFurther: of ChangedThreads, for pixels that have their first paths.
+void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths, bool bFurther)
 {
 	const FFrameContext* const Frame = &Context;
+	const FGraphBuffer Threads = bFurther ? Paths.ChangedThreads : Paths.Threads;
 	const FLightCellsOfFrame& LightCells = RequireLightCells(Context, GBuffer);
 	const uint32_t Bounces = Paths.Cells ? std::max(Paths.Settings.Bounces, BouncesWithoutCell) : Paths.Settings.Bounces;
-	Context.Graph.AddPass("Reflections", [&](FPassBuilder& Builder) -> FPassExecute {
+	Context.Graph.AddPass(bFurther ? "ReflectionsFurther" : "Reflections", [&](FPassBuilder& Builder) -> FPassExecute {
 		DeclarePixels(Builder, GBuffer);
-		LaunchFromThreadList(Builder, Paths.Threads);
+		LaunchFromThreadList(Builder, Threads);
 		ReadRadianceCells(Builder, Paths.Cells);
 		ReadLightCells(Builder, LightCells, true);
-		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Mirrored}) { Builder.Write(Texture, ERTAccess::StorageWrite); }
-		Builder.Write(Paths.Hits, ERTAccess::StorageWrite);
+		if (bFurther)
+		{
+			Builder.Read(Paths.Threads, ERTAccess::ShaderRead);
+			Builder.Read(Paths.Radiance, ERTAccess::StorageRead);
+		}
+		Builder.Write(Paths.Radiance, ERTAccess::StorageWrite);
+		if (!bFurther)
+		{
+			Builder.Write(Paths.Mirrored, ERTAccess::StorageWrite);
+			Builder.Write(Paths.Hits, ERTAccess::StorageWrite);
+		}
 		Builder.AllowAsync();
-		Builder.RunBeside(PathsGroup);
-		return [=, Samples = Paths.Settings.Samples, FullRoughness = GetFullRoughness(Paths.Settings.MaxRoughness)](FPassContext& Pass) {
+		if (!bFurther) { Builder.RunBeside(PathsGroup); }
+		const uint32_t Samples = bFurther ? GetFurtherSamples(Paths.Settings) : Paths.Settings.Samples;
+		const float FurtherPaths = CVarChangedPaths.GetOnRenderThread();
+		return [=, FullRoughness = GetFullRoughness(Paths.Settings.MaxRoughness)](FPassContext& Pass) {
 			FReflectionPathConstants C{};
 			C.Pass = Frame->Pass;
 			C.Pixels = GetReflectionPixels(Pass, GBuffer);
 			C.Radiance = GetStorageIndex(Pass, Paths.Radiance);
-			C.Mirrored = GetStorageIndex(Pass, Paths.Mirrored);
+			C.Mirrored = bFurther ? NO_TEXTURE : GetStorageIndex(Pass, Paths.Mirrored);
 			C.SamplesPerPixel = Samples;
+			C.FirstSamples = bFurther ? Paths.Settings.Samples : 0;
+			C.FurtherPaths = FurtherPaths;
 			C.MaxBounces = Bounces + 1;
 			C.LitRoughness = CVarLitRoughness.GetOnRenderThread();
 			C.EmissionRoughness = FullRoughness;
-			C.List = GetAddress(Pass, Paths.Threads);
-			C.Hits = GetAddress(Pass, Paths.Hits);
+			C.List = GetAddress(Pass, Threads);
+			C.FirstList = GetAddress(Pass, Paths.Threads);
+			C.Hits = bFurther ? 0 : GetAddress(Pass, Paths.Hits);
 			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
 			C.FirstVoter = Paths.FirstVoter;
 			C.Statistics = Frame->ReflectionStatistics;
-			Pass.CountRays(uint64_t(Frame->Width) * Frame->Height * Samples * GetMaxPathRays(Frame->Facts, Bounces));
-			TraceThreadList(Pass, *Frame, Paths.Dispatch, Paths.Threads, C, Frame->Width, Frame->Height);
+			const double PathsOfPixel = bFurther ? std::min<double>(Samples, FurtherPaths) : Samples;
+			Pass.CountRays(static_cast<uint64_t>(PathsOfPixel * Frame->Width * Frame->Height) * GetMaxPathRays(Frame->Facts, Bounces));
+			TraceThreadList(Pass, *Frame, Paths.Dispatch, Threads, C, Frame->Width, Frame->Height);
 		};
 	});
 }
@@ -212,6 +246,35 @@ void AddSurfacePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 	});
 }
 
+/// Lists the pixels that are traced further. Changed: FDenoiseInputs::ChangedShare.
+void AddChangedPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths, FGraphTexture History, FGraphTexture Changed)
+{
+	const FFrameContext* const Frame = &Context;
+	Context.Graph.AddPass("ReflectionsChanged", [&](FPassBuilder& Builder) -> FPassExecute {
+		DeclarePixels(Builder, GBuffer);
+		LaunchFromThreadList(Builder, Paths.Threads);
+		AppendToThreadList(Builder, Paths.ChangedThreads);
+		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Shown.Anchors, History, Changed})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
+		Builder.AllowAsync();
+		return [=](FPassContext& Pass) {
+			FReflectionChangedConstants C{};
+			C.Pass = Frame->Pass;
+			C.Pixels = GetReflectionPixels(Pass, GBuffer);
+			C.Radiance = GetSampledIndex(Pass, Paths.Radiance);
+			C.Anchors = GetSampledIndex(Pass, Paths.Shown.Anchors);
+			C.History = GetSampledIndex(Pass, History);
+			C.ChangedShare = GetSampledIndex(Pass, Changed);
+			C.List = GetAddress(Pass, Paths.Threads);
+			C.OutList = GetAddress(Pass, Paths.ChangedThreads);
+			C.LeastFrames = CVarChangedFrames.GetOnRenderThread();
+			DispatchThreadList(Pass, Paths.Changed, Paths.Threads, C);
+		};
+	});
+}
+
 FGraphTexture AddCombinePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths, FGraphTexture Radiance)
 {
 	const FFrameContext* const Frame = &Context;
@@ -235,6 +298,25 @@ FGraphTexture AddCombinePass(FFrameContext& Context, const FGBuffer& GBuffer, co
 		};
 	});
 	return Output;
+}
+/// Adds what the filter asks for, and the filter. Returns the filtered radiance.
+FGraphTexture AddFilter(FFrameContext& Context, const FGBuffer& GBuffer, FPaths& Paths)
+{
+	AddSurfacePass(Context, GBuffer, Paths);
+	FDenoiseInputs Inputs;
+	Inputs.Name = GetSignalInfo(ESignal::Reflections).Pass;
+	Inputs.Signal = Paths.Radiance;
+	Inputs.Surface = Paths.Shown;
+	Inputs.Reach = Paths.Reach;
+	Inputs.ChangedShare = AddMovedShare(Context, GBuffer, ELightFrom::SpecularLobe, Paths.Shown.Current);
+	if (Inputs.ChangedShare.IsValid() && GetFurtherSamples(Paths.Settings) > 0 && CVarChangedPaths.GetOnRenderThread() > 0.0f)
+	{
+		if (!RequireDenoiseHistory(Context, Inputs.Name, Inputs.History)) { return Paths.Radiance; }
+		Paths.ChangedThreads = AddThreadList(Context, uint64_t(Context.Width) * Context.Height, "ReflectionsChangedThreads");
+		AddChangedPass(Context, GBuffer, Paths, Inputs.History.Previous, Inputs.ChangedShare);
+		AddTracePass(Context, GBuffer, Paths, true);
+	}
+	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
 } // namespace
 
@@ -273,6 +355,7 @@ void ListReflectionPathFilters(std::vector<FShaderSource>& Out)
 {
 	if (!Denoise.IsEnabled()) { return; }
 	Out.push_back(MakeSurfaceSource());
+	Out.push_back(MakeSource("Changed"));
 	ListMovedShareShaders(Out);
 	ListDenoiseShaders(FilterForm, Denoise.Get(), Out);
 }
@@ -287,8 +370,9 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 	Paths.List = RequireCompute(Context, MakeSource("List")); // all are asked for at once
 	Paths.Combine = RequireCompute(Context, MakeCombineSource(Context.Facts));
 	Paths.Surface = bFiltered ? RequireCompute(Context, MakeSurfaceSource()) : nullptr;
+	Paths.Changed = bFiltered ? RequireCompute(Context, MakeSource("Changed")) : nullptr;
 	if (bFiltered && !AreDenoiseShadersReady(Context, FilterForm, Denoise.Get())) { return {}; }
-	if (!Dispatch || !Paths.List || !Paths.Combine || (bFiltered && !Paths.Surface)) { return {}; }
+	if (!Dispatch || !Paths.List || !Paths.Combine || (bFiltered && (!Paths.Surface || !Paths.Changed))) { return {}; }
 	Paths.Dispatch = *Dispatch;
 	if (bFiltered && !RequireShown(Context, Paths)) { return {}; }
 	const ERayPath Cached = ChooseRadianceCellPath(Query);
@@ -309,20 +393,8 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 		Context.DebugPicture = Paths.Picture;
 	}
 	AddListPass(Context, GBuffer, Paths);
-	AddTracePass(Context, GBuffer, Paths);
-	FGraphTexture Radiance = Paths.Radiance;
-	if (bFiltered)
-	{
-		AddSurfacePass(Context, GBuffer, Paths);
-		FDenoiseInputs Inputs;
-		Inputs.Name = GetSignalInfo(ESignal::Reflections).Pass;
-		Inputs.Signal = Radiance;
-		Inputs.Surface = Paths.Shown;
-		Inputs.Reach = Paths.Reach;
-		Inputs.ChangedShare = AddMovedShare(Context, GBuffer, ELightFrom::SpecularLobe, Paths.Shown.Current);
-		Radiance = AddDenoise(Context, GBuffer, Inputs, Denoise);
-	}
-	return AddCombinePass(Context, GBuffer, Paths, Radiance);
+	AddTracePass(Context, GBuffer, Paths, false);
+	return AddCombinePass(Context, GBuffer, Paths, bFiltered ? AddFilter(Context, GBuffer, Paths) : Paths.Radiance);
 }
 
 } // namespace Lantern

@@ -48,6 +48,7 @@ struct FReflectionCounts
 	uint32_t Mirrors = 0;  ///< pixels that traced: roughness below 0.032
 	uint32_t Sharp = 0;    ///< below r.RT.Reflections.LitRoughness
 	uint32_t Wide = 0;     ///< rougher ones
+	uint32_t Further = 0;  ///< paths beside those that each pixel has, where light has changed (r.RT.Reflections.ChangedSamples)
 	uint32_t Lit = 0;      ///< paths whose first hit was lit by rays to lights
 	uint32_t Sky = 0;      ///< paths that ended in the sky
 	uint32_t Cells = 0;    ///< that ended in a radiance cell

@@ -1,0 +1,52 @@
+// Lists the mirrors' pixels that further paths are traced for: what they show is new, or its light has changed. The filter could only spread
+// what few paths have found, over the edges of shadows as well. Rougher surfaces hide these edges.
+#version 460
+#include "../Shared/DenoiseTypes.h"
+#include "../Shared/ReflectionTypes.h"
+#include "../Denoise/ChangedShare.glsl"
+#include "../Library/Brdf.glsl"
+#include "../Library/GBuffer.glsl"
+#include "../Library/History.glsl"
+#include "../Rays/ThreadList.glsl"
+
+layout(local_size_x = RAY_QUEUE_GROUP_SIZE) in;
+layout(push_constant, scalar) uniform FPush { FReflectionChangedConstants Push; };
+
+shared uint Count, First;
+
+const float LeastAlbedo = 0.1; // of a mirror whose noise is seen
+
+// Whether a change of light, or of what the mirror shows, has left too little of the history.
+bool HasLostHistory(ivec2 Pixel, float Brightness)
+{
+	FAnchor Anchor = LoadAnchor(Push.Anchors, Pixel);
+	if (Push.History == NO_TEXTURE || !Anchor.bFound) { return true; }
+	vec4 History = texelFetch(Textures[Push.History], Anchor.Texel, 0);
+	if (!AreFinite(History)) { return true; }
+	Brightness = max(Brightness, Luminance(History.rgb));
+	float Error = GetChangeError(texelFetch(Textures[Push.ChangedShare], Pixel, 0).xy, Brightness);
+	return Error > 0.0 && History.w * GetKeptShare(Error, Brightness) < Push.LeastFrames;
+}
+
+bool IsTracedFurther(FViewConstants View, ivec2 Pixel)
+{
+	vec4 Radiance = texelFetch(Textures[Push.Radiance], Pixel, 0), Material = texelFetch(Textures[Push.Pixels.Material], Pixel, 0);
+	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.Pixels.BaseColor], Pixel, 0), Material);
+	if (!IsMirror(MakeSpecularLobe(Brdf)) || Radiance.w == CHANCE_NONE || !HasLostHistory(Pixel, Luminance(Radiance.rgb))) { return false; }
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Pixels.Normals, Pixel, LoadDepth(Push.Pixels.Depth, Pixel));
+	return MaxComponent(SpecularReflectance(Brdf, dot(Point.BentN, Point.V), Material.x)) >= LeastAlbedo;
+}
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	uint Number = gl_GlobalInvocationID.y * (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) + gl_GlobalInvocationID.x, Thread;
+	if (gl_LocalInvocationIndex == 0u) { Count = 0u; }
+	barrier();
+	bool bFurther = FindThread(Push.List, Number, Thread) && IsTracedFurther(View, ivec2(Thread % View.Width, Thread / View.Width));
+	uint Place = bFurther ? atomicAdd(Count, 1u) : 0u;
+	barrier();
+	if (gl_LocalInvocationIndex == 0u && Count > 0u) { First = ReserveThreads(Push.OutList, Count); }
+	barrier();
+	if (bFurther) { FThreadListRef(Push.OutList).Threads[First + Place] = Thread; }
+}
