@@ -123,13 +123,15 @@ struct FAnchor
 {
 	ivec2 Texel;
 	bool bFound, bOther;
+	vec2 Offset; // of its place from the pixel's centre, pixels
 };
 
 const uint AnchorFound = 0x80000000u, AnchorOther = 0x40000000u;
 
 FAnchor UnpackAnchor(uvec2 Packed)
 {
-	return FAnchor(ivec2(Packed.x & 32767u, (Packed.x >> 15u) & 32767u), (Packed.x & AnchorFound) != 0u, (Packed.x & AnchorOther) != 0u);
+	return FAnchor(ivec2(Packed.x & 32767u, (Packed.x >> 15u) & 32767u), (Packed.x & AnchorFound) != 0u, (Packed.x & AnchorOther) != 0u,
+	               unpackSnorm2x16(Packed.y));
 }
 
 FAnchor LoadAnchor(uint Texture, ivec2 Pixel) { return UnpackAnchor(texelFetch(UintTextures[Texture], Pixel, 0).xy); }

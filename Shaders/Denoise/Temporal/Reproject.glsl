@@ -4,7 +4,8 @@
 //   Gives: FHistory. Frames is 0 if the surface was not seen.
 //   Why: the four nearest texels count only if they showed the same surface (Library/History.glsl), so that nothing leaks
 //   from one object to another. Visibility is read between them. Variances add up, and so the numbers of frames have a harmonic mean.
-//   Colours take one texel as it is: what lies between texels would blur them, frame after frame.
+//   Colours take one texel as it is: what lies between texels would blur them, frame after frame. A picture of another size comes once, and
+//   is read between texels.
 #ifndef LANTERN_TEMPORAL_REPROJECT_GLSL
 #define LANTERN_TEMPORAL_REPROJECT_GLSL
 
@@ -61,15 +62,57 @@ FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 	return History;
 }
 #else
+// Whether a texel beside another shows the surface of that one. At grazing angles their distances are far apart.
+bool IsBeside(FSurface Its, FSurface Other)
+{
+	const float SameNormal = 0.95, SameDepth = 0.05, MostDepth = 0.5; // depths: over the distance
+	float Apart = abs(Its.Distance - Other.Distance) / Its.Distance;
+	bool bSame = Its.Identity == Other.Identity && dot(Its.Normal, Other.Normal) > SameNormal;
+	return Other.Distance > 0.0 && Apart < (bSame ? MostDepth : SameDepth) && HasSameNormal(Its, Other);
+}
+
+// Pictures of another size have no texel for each pixel: taken as they are, they would show as blocks. Returns what lies around the anchor's
+// place, of its surface alone. By how much it differs from what is beside it, it is uncertain: an edge may have been anywhere between texels.
+FHistory ResampleOtherSize(FViewConstants View, FAnchor Anchor)
+{
+	const float LostShare = 0.0625; // of a difference's square: a quarter of it is lost between texels
+	vec2 Place = vec2(Anchor.Texel) - Anchor.Offset * vec2(View.PreviousWidth, View.PreviousHeight) / vec2(View.Width, View.Height);
+	ivec2 Base = ivec2(floor(Place)), Last = ivec2(View.PreviousWidth, View.PreviousHeight) - 1;
+	vec2 F = Place - vec2(Base);
+	FSurface Its = LoadSurface(Push.PreviousSurface, Anchor.Texel);
+	FAccumulated Past = LoadAccumulated(Anchor.Texel), Sum = NothingAccumulated; // Frames: sum of their inverses
+	float Known = 0.0, Squares = 0.0, Count = 0.0;
+	[[dont_unroll]] for (int Tap = 0; Tap < 16; ++Tap)
+	{
+		ivec2 Step = ivec2(Tap % 4, Tap / 4) - 1, P = clamp(Base + Step, ivec2(0), Last);
+		FSurface Other = LoadSurface(Push.PreviousSurface, P);
+		FAccumulated Texel = LoadAccumulated(P);
+		if (Texel.Frames <= 0.0 || !IsBeside(Its, Other)) { continue; }
+		vec2 Near = max(1.0 - abs(vec2(Step) - F), 0.0);
+		float Weight = Near.x * Near.y, Difference = GetBrightness(Texel.Mean) - GetBrightness(Past.Mean);
+		Squares += Difference * Difference;
+		Count += 1.0;
+		Sum.Mean += Texel.Mean * Weight;
+		Sum.NoiseSigma += Texel.NoiseSigma * Weight;
+		Sum.NeighborhoodMean += Texel.NeighborhoodMean * Weight;
+		Sum.Frames += Weight / Texel.Frames;
+		Known += Weight;
+	}
+	if (Known > 0.0) { Past = FAccumulated(Sum.Mean / Known, Sum.NoiseSigma / Known, Known / Sum.Frames, Sum.NeighborhoodMean / Known); }
+	return FHistory(Past, LostShare * Squares / max(Count, 1.0), false, Anchor.Texel);
+}
+
 FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 {
 	const float WorthOfOthers = 0.25, MostFramesOfOthers = 16.0; // of a history that is another surface's
 	if (Push.History == NO_TEXTURE) { return NoHistory; }
 	FAnchor Anchor = LoadAnchor(Push.Anchors, ivec2(Pixel));
 	if (!Anchor.bFound) { return NoHistory; }
-	FAccumulated Past = LoadAccumulated(Anchor.Texel);
-	if (Anchor.bOther) { Past.Frames = min(WorthOfOthers * Past.Frames, MostFramesOfOthers); }
-	return FHistory(Past, 0.0, false, Anchor.Texel);
+	FHistory History = FHistory(NothingAccumulated, 0.0, false, Anchor.Texel);
+	if (Push.PreviousSurface != NO_TEXTURE) { History = ResampleOtherSize(View, Anchor); }
+	else { History.Past = LoadAccumulated(Anchor.Texel); }
+	if (Anchor.bOther) { History.Past.Frames = min(WorthOfOthers * History.Past.Frames, MostFramesOfOthers); }
+	return History;
 }
 #endif
 

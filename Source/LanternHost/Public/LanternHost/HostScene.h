@@ -82,6 +82,7 @@ public:
 	/// Returns the number of instances: nodes with meshes, in order.
 	size_t GetInstanceCount() const { return Instances.size(); }
 	int32_t GetNode(size_t Instance) const { return Instances[Instance].Node; }
+	FRTObjectId GetObject(size_t Instance) const { return Instances[Instance].Object; } ///< of GetScene()
 	bool IsSkinned(size_t Instance) const { return Instances[Instance].Skinned != nullptr; }
 	/// Moves one object independently of animations. Moving it in GetScene() directly would not move it in the raster.
 	void SetTransform(size_t Instance, const glm::dmat4& Transform);

@@ -76,7 +76,7 @@ FStabilityFault MakeStaleLampsFault(const FMethod& Method)
 	});
 	const auto Stale = KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Lights.HistorySeconds", "60"},
 	    {"r.RT.Debug.Lights.Rescale", "0"}, {"r.RT.GI.HistorySeconds", "60"}, {"r.RT.Debug.GI.Events", "0"}});
-	return MakeFault(bFiltered ? Stale : std::vector<FMethodSetting>(), "the lamp is switched ten frames late");
+	return MakeFault(bFiltered ? Stale : std::vector<FMethodSetting>(), "what changes does so late");
 }
 
 /// Each pixel of many lights takes one at random, hidden or not, and forgets it after a frame.
@@ -154,7 +154,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {4, "light switch", {Diffuse, LampDiffuse, LampSpecular}, MeasureLightSwitch, MakeStaleLampsFault},
 	    {5, "time of day", {Sun, Diffuse, Reflected}, MeasureTimeOfDay, nullptr, "the plugin is not told that the sun moves"},
 	    {6, "flicker", {Diffuse, LampDiffuse, LampSpecular}, MeasureFlicker, MakeStaleLampsFault},
-	    {7, "tiny emitters", {Diffuse, LampDiffuse}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},
+	    {7, "tiny emitters", {Diffuse, LampDiffuse, Reflected}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},
 	    {8, "boiling", {Diffuse, LampDiffuse, LampSpecular}, MeasureBoiling, MakeBlindLampsFault},
 	    {9, "disocclusion", EverySignal(false, ELamps::Yes), MeasureDisocclusion, MakeUncoveringFault},
 	    {10, "ghost", EverySignal(false, ELamps::Yes), MeasureGhost, MakeStaleFault},
@@ -168,7 +168,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {18, "frame rate", EverySignal(false, ELamps::Yes), MeasureFrameRate, nullptr,
 	        "every frame is said to last 1/60 s, and changes are not looked for"},
 	    {19, "furnace", {Diffuse, Reflected}, MeasureFurnace, nullptr, "the sky is 5 % brighter"},
-	    {20, "hybrid seams", {Sun, Occlusion, Diffuse, LampDiffuse}, MeasureSeams, MakeSeamsFault},
+	    {20, "hybrid seams", {Sun, Occlusion, Diffuse, LampDiffuse, Reflected}, MeasureSeams, MakeSeamsFault},
 	    {21, "caustics", {}},
 	    {22, "toon edge", {Diffuse}, MeasureToonEdge, MakeForgetfulFault},
 	    {23, "fog volume", {}},
@@ -177,6 +177,11 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {26, "missing shaders", {}, MeasureMissingShaders, nullptr, "missing shaders are left out, and colours are of other materials",
 	        true},
 	    {27, "odd sizes", EverySignal(true), MeasureOddSizes, nullptr, "columns beyond the last whole tile of 8 are missing"},
+	    {28, "door", {Diffuse}, MeasureDoor, MakeStaleLampsFault},
+	    {29, "mirror room", {Diffuse, Reflected}, MeasureMirrorRoom, nullptr, "the lamp is a tenth brighter"},
+	    {30, "carried emitter", {Diffuse, LampDiffuse}, MeasureCarriedEmitter, MakeStaleFault},
+	    {31, "cut and resize", {Occlusion, Diffuse, LampDiffuse}, MeasureCuts, MakeUncoveringFault},
+	    {32, "streaming", {Diffuse, LampDiffuse}, MeasureStreaming, MakeStaleLampsFault},
 	};
 	return Cases;
 }

@@ -105,4 +105,30 @@ double TemporalSigma(const std::vector<FImage>& Frames, const FPixelMask& Mask)
 
 FPixelMask MakeFullMask(const FImage& Image) { return FPixelMask(Image.GetPixelCount(), 1); }
 
+std::vector<FStabilityShot> RepeatView(const FView& View, size_t Frames, size_t KeepFrom)
+{
+	std::vector<FStabilityShot> Shots(Frames);
+	for (size_t I = 0; I < Frames; ++I)
+	{
+		Shots[I].View = View;
+		Shots[I].bKeep = I >= KeepFrom;
+	}
+	return Shots;
+}
+
+std::vector<FImage> DropUnkept(std::vector<FImage> Frames)
+{
+	std::erase_if(Frames, [](const FImage& Frame) { return Frame.IsEmpty(); });
+	return Frames;
+}
+
+double CountFramesTo(const std::vector<double>& Means, size_t First, double Level, bool bRise)
+{
+	for (size_t I = First; I < Means.size(); ++I)
+	{
+		if (bRise ? Means[I] >= Level : Means[I] <= Level) { return double(I - First + 1); }
+	}
+	return std::numeric_limits<double>::quiet_NaN();
+}
+
 } // namespace Lantern

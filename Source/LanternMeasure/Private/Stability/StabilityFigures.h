@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "LanternMeasure/SignalReference.h"
+#include "LanternMeasure/Stability/StabilityStage.h"
 
 namespace Lantern
 {
@@ -25,5 +26,12 @@ double QuarterError(const FImage& F, const FImage& R);
 /// Mean over pixels of the standard deviation over the frames, over the mean. An empty mask: all pixels.
 double TemporalSigma(const std::vector<FImage>& Frames, const FPixelMask& Mask = {});
 FPixelMask MakeFullMask(const FImage& Image);
+
+/// Shots of one view, which keep their pictures from number KeepFrom on.
+std::vector<FStabilityShot> RepeatView(const FView& View, size_t Frames, size_t KeepFrom);
+/// What FStabilityStage::Play returned, without the pictures that were not kept.
+std::vector<FImage> DropUnkept(std::vector<FImage> Frames);
+/// Number of frames from First until a mean reaches Level, or falls to it; 1: the frame First itself. NaN: none does.
+double CountFramesTo(const std::vector<double>& Means, size_t First, double Level, bool bRise);
 
 } // namespace Lantern

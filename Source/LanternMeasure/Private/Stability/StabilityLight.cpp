@@ -15,26 +15,6 @@
 namespace Lantern
 {
 
-namespace
-{
-std::vector<FStabilityShot> Repeat(const FView& View, size_t Frames, size_t KeepFrom)
-{
-	std::vector<FStabilityShot> Shots(Frames);
-	for (size_t I = 0; I < Frames; ++I)
-	{
-		Shots[I].View = View;
-		Shots[I].bKeep = I >= KeepFrom;
-	}
-	return Shots;
-}
-
-std::vector<FImage> Kept(std::vector<FImage> Frames)
-{
-	std::erase_if(Frames, [](const FImage& Frame) { return Frame.IsEmpty(); });
-	return Frames;
-}
-} // namespace
-
 /// Mean of the signal inside the sealed room over its mean in the view of the room from outside. Without a reference: what
 /// is inside is zero by construction. The fault for sun shadows shortens their rays; else it is a slit in the roof.
 FRTStatus MeasureThinWall(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
@@ -43,29 +23,16 @@ FRTStatus MeasureThinWall(FStabilityStage& Stage, std::vector<FStabilityFigure>&
 	{
 		if (FRTStatus S = Stage.Load(fmt::format("stability-wall:{}:{}", Centimetres, Stage.IsFaulty() ? 20 : 0)); !S) { return S; }
 		std::vector<FImage> Frames;
-		if (FRTStatus S = Stage.Play(Repeat(Stage.MakeView({9, 4, 10}, {0, 1.5, 0}, 45), 2, 1), Frames); !S) { return S; }
+		if (FRTStatus S = Stage.Play(RepeatView(Stage.MakeView({9, 4, 10}, {0, 1.5, 0}, 45), 2, 1), Frames); !S) { return S; }
 		const double Outside = MeanOver(Frames[1]);
 		Stage.AddToStrip(Frames[1], {});
-		if (FRTStatus S = Stage.Play(Repeat(Stage.MakeView(), 8, 0), Frames); !S) { return S; }
+		if (FRTStatus S = Stage.Play(RepeatView(Stage.MakeView(), 8, 0), Frames); !S) { return S; }
 		const FImage Inside = MeanImage(Frames);
 		Stage.AddToStrip(Inside, {});
 		Out.push_back({fmt::format("{} cm", Centimetres), MeanOver(Inside) / Outside, Centimetres > 0 ? 1e-4 : 1e-3});
 	}
 	return FRTStatus::Success();
 }
-
-namespace
-{
-/// First frame from First on whose mean reaches Share of Whole, or falls to it; 1: the frame First itself.
-double FramesTo(const std::vector<double>& Means, size_t First, double Level, bool bRise)
-{
-	for (size_t I = First; I < Means.size(); ++I)
-	{
-		if (bRise ? Means[I] >= Level : Means[I] <= Level) { return double(I - First + 1); }
-	}
-	return std::numeric_limits<double>::quiet_NaN();
-}
-} // namespace
 
 /// A lamp is dark for 30 frames, shines for 64, and is dark again. The means of the picture say how soon. The fault: histories of a
 /// minute, or a switch ten frames late.
@@ -91,10 +58,10 @@ FRTStatus MeasureLightSwitch(FStabilityStage& Stage, std::vector<FStabilityFigur
 	for (const FImage& Frame : Frames) { Means.push_back(MeanOver(Frame)); }
 	for (const int At : {Dark, Dark + 2, Dark + 16, Dark + Lit, Dark + Lit + 2}) { Stage.AddToStrip(Frames[size_t(At)], Reference.Mean); }
 	const double Frames90 = Stage.GetSignal() == ESignal::DiffuseGI ? 16.0 : 6.0; // light of several bounces
-	Out.push_back({"frames to 90 % of the light", FramesTo(Means, Dark, 0.9 * Whole, true), Frames90});
+	Out.push_back({"frames to 90 % of the light", CountFramesTo(Means, Dark, 0.9 * Whole, true), Frames90});
 	// Where no lamp shines, nothing is accumulated: the filter cannot be made to fail there, and a late switch can.
 	const bool bStale = Stage.IsBroken() && !Stage.IsFaulty();
-	Out.push_back({"frames to 10 % of the light", FramesTo(Means, Dark + Lit, 0.1 * Whole, false),
+	Out.push_back({"frames to 10 % of the light", CountFramesTo(Means, Dark + Lit, 0.1 * Whole, false),
 	    bStale ? std::nullopt : std::optional<double>(Frames90)});
 	const double Least = *std::min_element(Means.begin() + Dark + 16, Means.begin() + Dark + Lit);
 	// A method that keeps nothing cannot fail these.
@@ -146,11 +113,11 @@ FRTStatus MeasureFlicker(FStabilityStage& Stage, std::vector<FStabilityFigure>& 
 	constexpr int Warm = 2 * FlickerPeriod, Count = 4 * FlickerPeriod;
 	const int Late = Stage.IsFaulty() ? 5 : 0;
 	const FView View = Stage.MakeView();
-	std::vector<FStabilityShot> Shots = Repeat(View, Warm + Count, Warm);
+	std::vector<FStabilityShot> Shots = RepeatView(View, Warm + Count, Warm);
 	for (int I = 0; I < Warm + Count; ++I) { Shots[size_t(I)].Time = double(I - Late) / 60.0; }
 	std::vector<FImage> Frames, References;
 	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
-	Frames = Kept(std::move(Frames));
+	Frames = DropUnkept(std::move(Frames));
 	for (int I = 0; I < FlickerPeriod; ++I)
 	{
 		FSignalReference Reference;
@@ -253,7 +220,7 @@ double CountFireflies(const FImage& Image, const FImage& Reference)
 FRTStatus MeasureTinyEmitters(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
 {
 	if (FRTStatus S = Stage.Load("stability-candles"); !S) { return S; }
-	std::vector<FStabilityShot> Shots = Repeat(Stage.MakeView(), 76, 60);
+	std::vector<FStabilityShot> Shots = RepeatView(Stage.MakeView(), 76, 60);
 	if (Stage.IsFaulty())
 	{
 		Shots[0].Change = [](FHostScene& Scene) {
@@ -265,7 +232,7 @@ FRTStatus MeasureTinyEmitters(FStabilityStage& Stage, std::vector<FStabilityFigu
 	}
 	std::vector<FImage> Frames;
 	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
-	Frames = Kept(std::move(Frames));
+	Frames = DropUnkept(std::move(Frames));
 	if (FRTStatus S = Stage.Load("stability-candles"); !S) { return S; }
 	FSignalReference Reference;
 	if (FRTStatus S = Stage.GetReference(Shots[0].View, 0.0, Reference); !S) { return S; }
@@ -286,14 +253,14 @@ FRTStatus MeasureFurnace(FStabilityStage& Stage, std::vector<FStabilityFigure>& 
 {
 	if (FRTStatus S = Stage.Load("stability-furnace"); !S) { return S; }
 	const FView View = Stage.MakeView();
-	std::vector<FStabilityShot> Shots = Repeat(View, 40, 8);
+	std::vector<FStabilityShot> Shots = RepeatView(View, 40, 8);
 	if (Stage.IsFaulty())
 	{
 		Shots[0].Change = [](FHostScene& Scene) { Scene.GetScene().SetSky(glm::vec3(1.05f)); };
 	}
 	std::vector<FImage> Frames;
 	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
-	const FImage Mean = MeanImage(Kept(std::move(Frames)));
+	const FImage Mean = MeanImage(DropUnkept(std::move(Frames)));
 	if (FRTStatus S = Stage.Load("stability-furnace"); !S) { return S; }
 	FSignalReference Reference;
 	if (FRTStatus S = Stage.GetReference(View, 0.0, Reference); !S) { return S; }

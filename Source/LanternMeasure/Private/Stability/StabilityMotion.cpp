@@ -1,4 +1,4 @@
-// Cases about what moves: 9 disocclusion, 10 ghost, 11 shadow lag, 18 frame rate.
+// Cases about what moves: 9 disocclusion, 10 ghost, 11 shadow lag, 12 mover in a mirror, 18 frame rate, 30 carried emitter.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -215,9 +215,56 @@ FRTStatus MeasureMirrorGhost(FStabilityStage& Stage, std::vector<FStabilityFigur
 		return Where;
 	};
 	const double InFlat = -0.47, InRound = 0.2; // when the moments are those in which it is seen there
-	FRTStatus Status = MeasureTrail(Stage, {"flat, ", FindWhere("mirror"), InFlat, 0.05, std::nullopt}, Out);
+	FRTStatus Status = MeasureTrail(Stage, {"flat, ", FindWhere("mirror"), InFlat, 0.01, std::nullopt}, Out);
 	if (Status) { Status = MeasureTrail(Stage, {"round, ", FindWhere("convex mirror"), InRound, 0.05, std::nullopt}, Out); }
 	return Status;
+}
+
+namespace
+{
+/// Where the light of a picture is, in pixels from the left.
+double FindCentroid(const FImage& Image)
+{
+	double Sum = 0.0, Weighted = 0.0;
+	for (uint32_t Pixel = 0; Pixel < Image.GetPixelCount(); ++Pixel)
+	{
+		const double Value = GetLuminance(Image, Pixel % Image.Width, Pixel / Image.Width);
+		Sum += Value;
+		Weighted += Value * (Pixel % Image.Width + 0.5);
+	}
+	return Weighted / Sum;
+}
+} // namespace
+
+/// A glowing torch that is carried through a dark corridor: what its light leaves behind, by how many frames the light's centroid is late,
+/// and how much light there is, over four moments. The fault: histories of a minute, told of nothing.
+FRTStatus MeasureCarriedEmitter(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
+{
+	if (FRTStatus S = Stage.Load("stability-torch"); !S) { return S; }
+	constexpr int First = 52, Count = 81, Step = 8;
+	const auto TimeOf = [](int Frame) { return 0.1 + Frame * FrameSeconds; };
+	const FView View = Stage.MakeView();
+	std::vector<FStabilityShot> Shots = RepeatView(View, Count, First);
+	for (int I = 0; I < Count; ++I) { Shots[size_t(I)].Time = TimeOf(I); }
+	std::vector<FImage> Frames;
+	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
+	std::vector<double> Places; // of references
+	double Late = 0.0, Light = 0.0, Right = 0.0;
+	for (int I = First; I < Count; I += Step)
+	{
+		FSignalReference Reference;
+		if (FRTStatus S = Stage.GetReference(View, TimeOf(I), Reference); !S) { return S; }
+		Places.push_back(FindCentroid(Reference.Mean));
+		Late += Places.back() - FindCentroid(Frames[size_t(I)]);
+		Light += MeanOver(Frames[size_t(I)]);
+		Right += MeanOver(Reference.Mean);
+		Stage.AddToStrip(Frames[size_t(I)], Reference.Mean);
+	}
+	const double Moments = double(Places.size()), PixelsOfFrame = (Places.back() - Places.front()) / ((Moments - 1.0) * Step);
+	const bool bKeeps = Stage.KeepsHistory();
+	Out.push_back({"late by frames", Late / Moments / PixelsOfFrame, bKeeps ? std::optional<double>(3.0) : std::nullopt});
+	Out.push_back({"energy, off by", std::abs(Light / Right - 1.0), 0.05});
+	return MeasureTrail(Stage, {"trail ", {}, 0.2, 0.02, std::nullopt}, Out);
 }
 
 namespace

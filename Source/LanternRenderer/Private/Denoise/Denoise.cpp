@@ -88,10 +88,17 @@ FGraphTexture FDenoiser::CreateImage(bool bLast, uint32_t Index) const
 	return Context.Graph.CreateTexture({Context.Width, Context.Height, ImageFormat}, (Name + " " + std::to_string(Index)).c_str());
 }
 
+bool HasOtherSize(const FFrameContext& Context, FGraphTexture Texture)
+{
+	const FGraphTextureDesc& Desc = Context.Graph.GetDesc(Texture);
+	return Desc.Width != Context.Width || Desc.Height != Context.Height;
+}
+
 FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 {
 	const FSurfaceTextures Surface = GetSurface();
 	const bool bReproject = History.Previous.IsValid() && Surface.Previous.IsValid() && (!bColor || Moments.Previous.IsValid());
+	const bool bReadsSurface = bReproject && (!bColor || HasOtherSize(Context, History.Previous));
 	Context.Graph.AddPass((Name + "Temporal").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {Inputs.Signal, Surface.Current}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		for (const FGraphTexture Texture : {Inputs.Extent, Inputs.Change, Inputs.ChangedShare})
@@ -102,8 +109,9 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		{
 			if (Surface.Motion.IsValid()) { Builder.Read(Surface.Motion, ERTAccess::ShaderRead); }
 			Builder.Read(History.Previous, ERTAccess::ShaderRead);
-			const FGraphTexture OfColor[] = {Moments.Previous, Surface.Anchors}, OfVisibility[] = {Surface.Previous, Surface.Reprojection};
-			for (const FGraphTexture Texture : bColor ? OfColor : OfVisibility) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+			if (bReadsSurface) { Builder.Read(Surface.Previous, ERTAccess::ShaderRead); }
+			if (bColor) { Builder.Read(Moments.Previous, ERTAccess::ShaderRead); }
+			Builder.Read(bColor ? Surface.Anchors : Surface.Reprojection, ERTAccess::ShaderRead);
 		}
 		Builder.Write(History.Current, ERTAccess::StorageWrite);
 		if (bColor) { Builder.Write(Moments.Current, ERTAccess::StorageWrite); }
@@ -132,7 +140,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 			C.ChangedShare = GetSampledIndex(Pass, Share);
 			C.Surface = GetSampledIndex(Pass, Surface.Current);
 			C.Motion = GetSampledIndex(Pass, bReproject ? Surface.Motion : FGraphTexture{});
-			C.PreviousSurface = GetSampledIndex(Pass, bReproject && !bColor ? Surface.Previous : FGraphTexture{});
+			C.PreviousSurface = GetSampledIndex(Pass, bReadsSurface ? Surface.Previous : FGraphTexture{});
 			C.Reprojection = GetSampledIndex(Pass, bReproject && !bColor ? Surface.Reprojection : FGraphTexture{});
 			C.Anchors = GetSampledIndex(Pass, bReproject && bColor ? Surface.Anchors : FGraphTexture{});
 			C.History = GetSampledIndex(Pass, bReproject ? Kept.Previous : FGraphTexture{});

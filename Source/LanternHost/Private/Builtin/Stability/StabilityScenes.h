@@ -73,6 +73,12 @@ FSceneDescription BuildStabilityToon();
 /// chamber that no light reaches. The method decides what fills the air.
 FSceneDescription BuildStabilityFog();
 
+/// A corridor beside a lit room. A door between them, node "door", is shut, and slides towards +x. The camera sees the wall that faces it.
+FSceneDescription BuildStabilityDoor();
+
+/// A dark corridor. Node "torch" glows, and moves from -6 m to 6 m in 2.4 s, which is 5 m/s.
+FSceneDescription BuildStabilityTorch();
+
 // ---------------------------------------------------------------------------------------------------- lamps
 
 /// A sealed room with one lamp behind a partition, which shines only by its light on walls. The lamp is on in the first half of each
@@ -93,6 +99,9 @@ FSceneDescription BuildStabilityLightGrid(float Range);
 /// A cube flies past a flat mirror and a convex one, once in 1.5 s. Its node is called "mover".
 FSceneDescription BuildStabilityMirror();
 
+/// A sealed room whose side walls and back are mirrors. Brightness: of its lamp, over what it should be.
+FSceneDescription BuildStabilityMirrorRoom(float Brightness);
+
 /// A railing of metal, roughness 0.15, whose bars are one pixel wide in a picture with this number of rows.
 FSceneDescription BuildStabilityRailing(float Rows, int Lamps);
 
@@ -107,5 +116,8 @@ FSceneDescription BuildStabilityHugeMesh();
 
 /// A street of 2 km between blocks, no two alike. An animation of the camera's node flies through it at 200 m/s, in 10 s.
 FSceneDescription BuildStabilityHash();
+
+/// A street of 400 m at night, towards −z. Node "lantern" glows behind the camera; what is streamed in looks like it.
+FSceneDescription BuildStabilityStreaming();
 
 } // namespace Lantern::Builtin

@@ -74,5 +74,10 @@ FRTStatus MeasureFarAway(FStabilityStage& Stage, std::vector<FStabilityFigure>& 
 FRTStatus MeasurePlanes(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureMissingShaders(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureOddSizes(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureDoor(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureMirrorRoom(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureCarriedEmitter(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureCuts(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureStreaming(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 
 } // namespace Lantern
