@@ -119,19 +119,28 @@ FReprojection LoadReprojection(uint Texture, ivec2 Pixel) { return UnpackReproje
 // texel is not: each pixel takes the nearest one as it is, and remembers how far from its centre that one lies on the surface.
 // Texel of an RG32_UINT image (Denoise/Surface.comp). x: bits 0 to 14 and 15 to 29: texel of the previous frame; bit 30: it showed another
 // surface of the object, or a place that is a pixel away; bit 31: there is one. y: two 16-bit snorm: the place from the pixel's centre, pixels.
+// Bit 0 of y: the previous frame had another size. The place is in its pixels then, and histories are read between its texels, so that they
+// are of the centre for those who come next.
 struct FAnchor
 {
 	ivec2 Texel;
 	bool bFound, bOther;
-	vec2 Offset; // of its place from the pixel's centre, pixels
+	vec2 Offset; // of its place from the pixel's centre, pixels of the previous frame
 };
 
-const uint AnchorFound = 0x80000000u, AnchorOther = 0x40000000u;
+const uint AnchorFound = 0x80000000u, AnchorOther = 0x40000000u, AnchorResampled = 1u;
 
 FAnchor UnpackAnchor(uvec2 Packed)
 {
 	return FAnchor(ivec2(Packed.x & 32767u, (Packed.x >> 15u) & 32767u), (Packed.x & AnchorFound) != 0u, (Packed.x & AnchorOther) != 0u,
 	               unpackSnorm2x16(Packed.y));
+}
+
+// Returns how many frames the history of an anchor's texel is worth. Frames: of the texel.
+float GetAnchoredFrames(FAnchor Anchor, float Frames)
+{
+	const float WorthOfOthers = 0.25, MostFramesOfOthers = 16.0; // of a history that is another surface's
+	return Anchor.bOther ? min(WorthOfOthers * Frames, MostFramesOfOthers) : Frames;
 }
 
 FAnchor LoadAnchor(uint Texture, ivec2 Pixel) { return UnpackAnchor(texelFetch(UintTextures[Texture], Pixel, 0).xy); }
@@ -153,16 +162,22 @@ uvec2 FindAnchor(FViewConstants View, uint Previous, uvec2 Reprojection)
 		if ((Taps & (1u << Tap)) == 0u) { continue; }
 		ivec2 P = GetTap(Base, Tap);
 		vec2 Its = vec2(GetTap(ivec2(0), Tap)) - Fraction;
-		if (Previous != NO_TEXTURE) { Its += unpackSnorm2x16(texelFetch(UintTextures[Previous], P, 0).y); }
+		if (Previous != NO_TEXTURE)
+		{
+			uint Before = texelFetch(UintTextures[Previous], P, 0).y;
+			Its += (Before & AnchorResampled) == 0u ? unpackSnorm2x16(Before) : vec2(0.0);
+		}
 		if (dot(Its, Its) >= Least) { continue; }
 		Least = dot(Its, Its);
 		Offset = Its;
 		Texel = P;
 	}
 	bool bSurely = Same != 0u && Least < FarAway * FarAway;
-	Offset *= TowardsCenter * vec2(View.Width, View.Height) / vec2(View.PreviousWidth, View.PreviousHeight);
+	bool bResampled = View.Width != View.PreviousWidth || View.Height != View.PreviousHeight;
+	if (!bResampled) { Offset *= TowardsCenter; }
+	uint Packed = packSnorm2x16(clamp(Offset, vec2(-1.0), vec2(1.0))) & ~AnchorResampled;
 	return uvec2(uint(Texel.x) | (uint(Texel.y) << 15u) | AnchorFound | (bSurely ? 0u : AnchorOther),
-	             packSnorm2x16(clamp(Offset, vec2(-1.0), vec2(1.0))));
+	             Packed | (bResampled ? AnchorResampled : 0u));
 }
 
 // What a texel of the previous frame must show to be of the pixel's surface.

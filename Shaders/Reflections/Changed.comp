@@ -16,23 +16,26 @@ shared uint Count, First;
 
 const float LeastAlbedo = 0.1; // of a mirror whose noise is seen
 
-// Whether a change of light, or of what the mirror shows, has left too little of the history.
-bool HasLostHistory(ivec2 Pixel, float Brightness)
+// Whether a change of light, or of what the mirror shows, has left too little of the history. The paths of this frame have no say: who is
+// traced further would else depend on what they found, and the mean with it.
+bool HasLostHistory(ivec2 Pixel)
 {
 	FAnchor Anchor = LoadAnchor(Push.Anchors, Pixel);
 	if (Push.History == NO_TEXTURE || !Anchor.bFound) { return true; }
 	vec4 History = texelFetch(Textures[Push.History], Anchor.Texel, 0);
+	vec2 Changed = texelFetch(Textures[Push.ChangedShare], Pixel, 0).xy;
 	if (!AreFinite(History)) { return true; }
-	Brightness = max(Brightness, Luminance(History.rgb));
-	float Error = GetChangeError(texelFetch(Textures[Push.ChangedShare], Pixel, 0).xy, Brightness);
-	return Error > 0.0 && History.w * GetKeptShare(Error, Brightness) < Push.LeastFrames;
+	float Brightness = Luminance(History.rgb), Error = GetChangeError(Changed, Brightness);
+	if (Brightness <= 0.0) { return Changed.x > 0.0 || Changed.y > 0.0; }
+	return Error > 0.0 && GetAnchoredFrames(Anchor, History.w) * GetKeptShare(Error, Brightness) < Push.LeastFrames;
 }
 
 bool IsTracedFurther(FViewConstants View, ivec2 Pixel)
 {
-	vec4 Radiance = texelFetch(Textures[Push.Radiance], Pixel, 0), Material = texelFetch(Textures[Push.Pixels.Material], Pixel, 0);
+	float Chance = texelFetch(Textures[Push.Radiance], Pixel, 0).w;
+	vec4 Material = texelFetch(Textures[Push.Pixels.Material], Pixel, 0);
 	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.Pixels.BaseColor], Pixel, 0), Material);
-	if (!IsMirror(MakeSpecularLobe(Brdf)) || Radiance.w == CHANCE_NONE || !HasLostHistory(Pixel, Luminance(Radiance.rgb))) { return false; }
+	if (!IsMirror(MakeSpecularLobe(Brdf)) || Chance == CHANCE_NONE || !HasLostHistory(Pixel)) { return false; }
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Pixels.Normals, Pixel, LoadDepth(Push.Pixels.Depth, Pixel));
 	return MaxComponent(SpecularReflectance(Brdf, dot(Point.BentN, Point.V), Material.x)) >= LeastAlbedo;
 }

@@ -54,10 +54,10 @@ uint GetFurtherSamples(FViewConstants View, uint Thread)
 {
 	float All = float(FThreadListRef(Push.FirstList).Header.Launch[0]), Asking = float(FThreadListRef(Push.List).Header.Launch[0]);
 	float Chance = float(HashPcg(Thread + HashPcg(View.FrameIndex + HashPcg(View.Seed))) >> 8u) * (1.0 / 16777216.0);
-	return uint(min(float(Push.SamplesPerPixel), Push.FurtherPaths * All / Asking) + Chance);
+	return min(uint(min(float(Push.SamplesPerPixel), Push.FurtherPaths * All / Asking) + Chance), Push.SamplesPerPixel);
 }
 
-// Joins the mean of further paths with that of the first ones.
+// Joins the mean of further paths with that of the first ones. What the filter could not hold is that of the first ones.
 void JoinFirst(ivec2 Pixel, vec3 Radiance, uint Samples)
 {
 	float Sum = float(Push.FirstSamples + Samples);
@@ -95,7 +95,9 @@ void ReflectPixel(uint Number)
 	if (bFurther) { RadianceVoter.Note = FAddress(0); } // the first path has voted
 	if (Push.RadianceCells != FAddress(0)) { RadianceNear = FRadianceGridRef(Push.RadianceCells).Data.NearCells; }
 #endif
-	vec3 Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, Lobe, Samples, Push.MaxBounces, bFurther ? 0x85ebca6bu : 0x9e3779b9u);
+	// Numbers of further samples differ from frame to frame, and with them the places in a sequence.
+	uint Salt = bFurther ? HashPcg(View.FrameIndex ^ 0x85ebca6bu) : 0x9e3779b9u;
+	vec3 Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, Lobe, Samples, Push.MaxBounces, Salt);
 	float NdotV = dot(Point.BentN, Point.V);
 	vec3 Albedo = LobeAlbedo(Lobe, NdotV, Material.x);
 	Radiance /= Albedo;

@@ -76,7 +76,7 @@ TEST_F(FViewHistoryTest, JitteredFramesAccumulateAsThoseWithoutJitter)
 class FColorHistoryTest : public FSignalTest
 {
 protected:
-	static constexpr uint32_t Before = 32, After = 2;
+	static constexpr uint32_t Before = 32, After = 4;
 	static constexpr double LitSeconds = 1.0; // the lamp shines
 
 	/// The last frame of Count, of a size each.
@@ -85,10 +85,13 @@ protected:
 		FCapturedFrame Captured;
 		FFrameCapture Capture;
 		Capture.Signals.Add(ESignal::LocalDiffuse);
-		GetEngine().SetFrameIndex(Before + After - static_cast<uint32_t>(Sizes.size()));
+		const uint32_t First = Before + After - static_cast<uint32_t>(Sizes.size());
+		GetEngine().SetFrameIndex(First);
 		for (size_t I = 0; I < Sizes.size(); ++I)
 		{
-			FView View = LookAt({0.5, 1.7, 2.4}, {0.45, 0.8, -1.5}, 1.2f, Sizes[I].x, Sizes[I].y);
+			// The camera moves behind the change: where histories lie must be right as well.
+			const double X = 0.5 + 0.01 * std::max(double(First + I) - double(Before), 0.0);
+			FView View = LookAt({X, 1.7, 2.4}, {X - 0.05, 0.8, -1.5}, 1.2f, Sizes[I].x, Sizes[I].y);
 			View.DeltaSeconds = 1.0f / 60.0f;
 			View.bCut = I == 0;
 			EXPECT_OK(GetEngine().RenderFrame(View, LitSeconds, Capture, &Captured));
@@ -113,7 +116,7 @@ TEST_F(FColorHistoryTest, AnotherSizeShowsNoBlocks)
 		const double Carried = ComputeMeanSquare(RenderLast(Sizes), Settled), Fresh = ComputeMeanSquare(Anew, Settled);
 		PrintFigure(fmt::format("{} x {} behind 96 x 54: error {:.3f} of that of a picture begun anew", Size.x, Size.y, Carried / Fresh));
 		EXPECT_GT(Fresh, 0.0);
-		EXPECT_LT(Carried, 1.5 * Fresh);
+		EXPECT_LT(Carried, 1.5 * Fresh) << "2.1 if places are taken to lie off their centres for longer than the one frame";
 	}
 }
 

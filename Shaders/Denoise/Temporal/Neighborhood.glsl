@@ -18,7 +18,7 @@ struct FNeighborhood
 {
 	float Mean;            // brightness
 	float OutlierVariance; // negative: unknown
-	float Count;           // pixels at about the depth of the middle, at least 1
+	float Count;           // pixels at about the depth of the middle, at least 1, as if each had one ray
 };
 
 #ifdef QUARTER
@@ -84,7 +84,7 @@ FNeighborhood MeasureNeighborhood()
 {
 	float InverseDepth = TileInverseDepth[GetTileIndex(ivec2(0))];
 	ivec2 Inner = ivec2(gl_LocalInvocationID.xy) + WindowRadius;
-	float Sum = 0.0, Count = 0.0, OutlierSum = 0.0, OutlierCount = 0.0, Missing = 0.0;
+	float Sum = 0.0, Count = 0.0, Inverses = 0.0, OutlierSum = 0.0, OutlierCount = 0.0, Missing = 0.0;
 	ivec2 First = GetStepsToValue(ivec2(gl_LocalInvocationID.xy) - NeighborhoodRadius) - NeighborhoodRadius;
 	[[dont_unroll]] for (int Y = First.y; Y <= NeighborhoodRadius; Y += ValueStep)
 	{
@@ -99,6 +99,9 @@ FNeighborhood MeasureNeighborhood()
 			}
 			Sum += GetBrightness(TileSignal[I]);
 			Count += 1.0;
+#if CHANNELS != 1
+			Inverses += 1.0 / TileRays[I];
+#endif
 #ifdef QUARTER
 			Missing += 3.0;
 #else
@@ -115,6 +118,11 @@ FNeighborhood MeasureNeighborhood()
 #if CHANNELS != 1
 	if (Count == 0.0) { Sum = GetBrightness(TileSignal[GetTileIndex(ivec2(0))]); } // what it was filled with
 	float Mean = Sum / max(Count, 1.0);
+	if (Inverses > 0.0 && Inverses < Count) // means of several rays are worth more pixels
+	{
+		Count *= Count / Inverses;
+		Sum = Mean * Count;
+	}
 	if (Missing > 0.0) // rays of some pixels are spread less evenly than those of all
 	{
 		Count *= Count / (Count + Missing);

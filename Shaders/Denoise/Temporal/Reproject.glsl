@@ -76,7 +76,7 @@ bool IsBeside(FSurface Its, FSurface Other)
 FHistory ResampleOtherSize(FViewConstants View, FAnchor Anchor)
 {
 	const float LostShare = 0.0625; // of a difference's square: a quarter of it is lost between texels
-	vec2 Place = vec2(Anchor.Texel) - Anchor.Offset * vec2(View.PreviousWidth, View.PreviousHeight) / vec2(View.Width, View.Height);
+	vec2 Place = vec2(Anchor.Texel) - Anchor.Offset;
 	ivec2 Base = ivec2(floor(Place)), Last = ivec2(View.PreviousWidth, View.PreviousHeight) - 1;
 	vec2 F = Place - vec2(Base);
 	FSurface Its = LoadSurface(Push.PreviousSurface, Anchor.Texel);
@@ -104,14 +104,13 @@ FHistory ResampleOtherSize(FViewConstants View, FAnchor Anchor)
 
 FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 {
-	const float WorthOfOthers = 0.25, MostFramesOfOthers = 16.0; // of a history that is another surface's
 	if (Push.History == NO_TEXTURE) { return NoHistory; }
 	FAnchor Anchor = LoadAnchor(Push.Anchors, ivec2(Pixel));
 	if (!Anchor.bFound) { return NoHistory; }
 	FHistory History = FHistory(NothingAccumulated, 0.0, false, Anchor.Texel);
 	if (Push.PreviousSurface != NO_TEXTURE) { History = ResampleOtherSize(View, Anchor); }
 	else { History.Past = LoadAccumulated(Anchor.Texel); }
-	if (Anchor.bOther) { History.Past.Frames = min(WorthOfOthers * History.Past.Frames, MostFramesOfOthers); }
+	History.Past.Frames = GetAnchoredFrames(Anchor, History.Past.Frames);
 	return History;
 }
 #endif

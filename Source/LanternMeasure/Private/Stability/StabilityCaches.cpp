@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternImage/ImageStatistics.h"
 #include "LanternMeasure/Methods.h"
 #include "LanternMeasure/Stability/StabilityStage.h"
@@ -77,18 +76,6 @@ FRTStatus FlyThroughStreet(FStabilityStage& Stage, const char* Capacity, double&
 }
 } // namespace
 
-namespace
-{
-/// Whether the method's paths end in radiance cells. A table that is too small is nothing to others.
-bool HasCells()
-{
-	const FRTConsoleVariable* const Route = FConsoleVariables::Get().Find("r.RT.GI");
-	const FRTCVarValue Value = Route ? Route->GetValue() : FRTCVarValue();
-	const int32_t* const Number = std::get_if<int32_t>(&Value);
-	return Number && *Number >= 2;
-}
-} // namespace
-
 /// A flight of 200 m/s through a street of 2 km, with tables of cells that are far too small. The fault: paths that find no cell are
 /// dark.
 FRTStatus MeasureHashOverflow(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
@@ -102,7 +89,7 @@ FRTStatus MeasureHashOverflow(FStabilityStage& Stage, std::vector<FStabilityFigu
 		double Error = 0.0;
 		if (FRTStatus S = FlyThroughStreet(Stage, Capacity, Error, Broken); !S) { return S; }
 		Out.push_back({fmt::format("error with {} cells over that with all", Capacity), Error / Whole,
-		    HasCells() ? std::optional<double>(1.5) : std::nullopt});
+		    HasRadianceCells() ? std::optional<double>(1.5) : std::nullopt});
 	}
 	Out.push_back({"pixels that are not finite", double(Broken), Stage.IsBroken() ? std::nullopt : std::optional<double>(0.0)});
 	return FRTStatus::Success();

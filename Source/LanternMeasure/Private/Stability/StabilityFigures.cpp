@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternImage/ImageStatistics.h"
 
 namespace Lantern
@@ -104,6 +105,14 @@ double TemporalSigma(const std::vector<FImage>& Frames, const FPixelMask& Mask)
 }
 
 FPixelMask MakeFullMask(const FImage& Image) { return FPixelMask(Image.GetPixelCount(), 1); }
+
+bool HasRadianceCells()
+{
+	const FRTConsoleVariable* const Route = FConsoleVariables::Get().Find("r.RT.GI");
+	const FRTCVarValue Value = Route ? Route->GetValue() : FRTCVarValue();
+	const int32_t* const Number = std::get_if<int32_t>(&Value);
+	return Number && *Number >= 2;
+}
 
 std::vector<FStabilityShot> RepeatView(const FView& View, size_t Frames, size_t KeepFrom)
 {

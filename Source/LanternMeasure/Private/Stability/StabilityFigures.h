@@ -27,6 +27,9 @@ double QuarterError(const FImage& F, const FImage& R);
 double TemporalSigma(const std::vector<FImage>& Frames, const FPixelMask& Mask = {});
 FPixelMask MakeFullMask(const FImage& Image);
 
+/// Whether the paths of the method that is in force end in radiance cells.
+bool HasRadianceCells();
+
 /// Shots of one view, which keep their pictures from number KeepFrom on.
 std::vector<FStabilityShot> RepeatView(const FView& View, size_t Frames, size_t KeepFrom);
 /// What FStabilityStage::Play returned, without the pictures that were not kept.

@@ -261,8 +261,9 @@ FRTStatus MeasureCarriedEmitter(FStabilityStage& Stage, std::vector<FStabilityFi
 		Stage.AddToStrip(Frames[size_t(I)], Reference.Mean);
 	}
 	const double Moments = double(Places.size()), PixelsOfFrame = (Places.back() - Places.front()) / ((Moments - 1.0) * Step);
-	const bool bKeeps = Stage.KeepsHistory();
-	Out.push_back({"late by frames", Late / Moments / PixelsOfFrame, bKeeps ? std::optional<double>(3.0) : std::nullopt});
+	// What a torch's own rays bring is never late, however long it stays.
+	const bool bLate = Stage.KeepsHistory() && (Stage.GetSignal() == ESignal::DiffuseGI || !Stage.IsBroken());
+	Out.push_back({"late by frames", std::abs(Late / Moments / PixelsOfFrame), bLate ? std::optional<double>(3.0) : std::nullopt});
 	Out.push_back({"energy, off by", std::abs(Light / Right - 1.0), 0.05});
 	return MeasureTrail(Stage, {"trail ", {}, 0.2, 0.02, std::nullopt}, Out);
 }

@@ -90,6 +90,13 @@ FReflectionFade GetFade(float MaxRoughness)
 	return {End, 1.0f / (End - Start)};
 }
 
+/// Number of paths that pixels whose light has changed have beside those of others.
+uint32_t GetFurtherSamples(uint32_t Samples)
+{
+	const uint32_t Changed = static_cast<uint32_t>(CVarChangedSamples.GetOnRenderThread());
+	return Changed > Samples && CVarChangedPaths.GetOnRenderThread() > 0.0f ? Changed - Samples : 0;
+}
+
 void DeclarePixels(FPassBuilder& Builder, const FGBuffer& GBuffer)
 {
 	for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, GBuffer.BaseColor, GBuffer.Material})
@@ -152,13 +159,6 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 	});
 }
 
-/// Number of paths that pixels whose light has changed have beside those of others.
-uint32_t GetFurtherSamples(const FReflectionPathSettings& Settings)
-{
-	const uint32_t Changed = static_cast<uint32_t>(CVarChangedSamples.GetOnRenderThread());
-	return Changed > Settings.Samples ? Changed - Settings.Samples : 0;
-}
-
 /// bFurther: of ChangedThreads, for pixels that have their first paths.
 void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths, bool bFurther)
 {
@@ -184,7 +184,7 @@ void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths&
 		}
 		Builder.AllowAsync();
 		if (!bFurther) { Builder.RunBeside(PathsGroup); }
-		const uint32_t Samples = bFurther ? GetFurtherSamples(Paths.Settings) : Paths.Settings.Samples;
+		const uint32_t Samples = bFurther ? GetFurtherSamples(Paths.Settings.Samples) : Paths.Settings.Samples;
 		const float FurtherPaths = CVarChangedPaths.GetOnRenderThread();
 		return [=, FullRoughness = GetFullRoughness(Paths.Settings.MaxRoughness)](FPassContext& Pass) {
 			FReflectionPathConstants C{};
@@ -309,7 +309,7 @@ FGraphTexture AddFilter(FFrameContext& Context, const FGBuffer& GBuffer, FPaths&
 	Inputs.Surface = Paths.Shown;
 	Inputs.Reach = Paths.Reach;
 	Inputs.ChangedShare = AddMovedShare(Context, GBuffer, ELightFrom::SpecularLobe, Paths.Shown.Current);
-	if (Inputs.ChangedShare.IsValid() && GetFurtherSamples(Paths.Settings) > 0 && CVarChangedPaths.GetOnRenderThread() > 0.0f)
+	if (Inputs.ChangedShare.IsValid() && Paths.Changed)
 	{
 		if (!RequireDenoiseHistory(Context, Inputs.Name, Inputs.History)) { return Paths.Radiance; }
 		Paths.ChangedThreads = AddThreadList(Context, uint64_t(Context.Width) * Context.Height, "ReflectionsChangedThreads");
@@ -351,11 +351,11 @@ FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const F
 
 bool AreReflectionPathsFiltered() { return Denoise.IsEnabled(); }
 
-void ListReflectionPathFilters(std::vector<FShaderSource>& Out)
+void ListReflectionPathFilters(const FReflectionPathSettings& Settings, std::vector<FShaderSource>& Out)
 {
 	if (!Denoise.IsEnabled()) { return; }
 	Out.push_back(MakeSurfaceSource());
-	Out.push_back(MakeSource("Changed"));
+	if (GetFurtherSamples(Settings.Samples) > 0) { Out.push_back(MakeSource("Changed")); }
 	ListMovedShareShaders(Out);
 	ListDenoiseShaders(FilterForm, Denoise.Get(), Out);
 }
@@ -370,9 +370,10 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 	Paths.List = RequireCompute(Context, MakeSource("List")); // all are asked for at once
 	Paths.Combine = RequireCompute(Context, MakeCombineSource(Context.Facts));
 	Paths.Surface = bFiltered ? RequireCompute(Context, MakeSurfaceSource()) : nullptr;
-	Paths.Changed = bFiltered ? RequireCompute(Context, MakeSource("Changed")) : nullptr;
+	const bool bFurther = bFiltered && GetFurtherSamples(Settings.Samples) > 0;
+	Paths.Changed = bFurther ? RequireCompute(Context, MakeSource("Changed")) : nullptr;
 	if (bFiltered && !AreDenoiseShadersReady(Context, FilterForm, Denoise.Get())) { return {}; }
-	if (!Dispatch || !Paths.List || !Paths.Combine || (bFiltered && (!Paths.Surface || !Paths.Changed))) { return {}; }
+	if (!Dispatch || !Paths.List || !Paths.Combine || (bFiltered && !Paths.Surface) || (bFurther && !Paths.Changed)) { return {}; }
 	Paths.Dispatch = *Dispatch;
 	if (bFiltered && !RequireShown(Context, Paths)) { return {}; }
 	const ERayPath Cached = ChooseRadianceCellPath(Query);

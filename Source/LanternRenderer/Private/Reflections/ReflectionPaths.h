@@ -22,7 +22,7 @@ float GetFullRoughness(float MaxRoughness);
 FReflectionPixels GetReflectionPixels(FPassContext& Pass, const FGBuffer& GBuffer);
 FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const FPassQuery& Query);
 bool AreReflectionPathsFiltered();
-void ListReflectionPathFilters(std::vector<FShaderSource>& Out);
+void ListReflectionPathFilters(const FReflectionPathSettings& Settings, std::vector<FShaderSource>& Out);
 /// Adds the passes, and returns the signal. Invalid: shaders are being compiled, or an error, which the context then has.
 FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrameContext& Context, const FGBuffer& GBuffer);
 

@@ -80,9 +80,9 @@ FGBuffer AddReflectingSurface(FFrameContext& Context, const FGBuffer& GBuffer)
 
 bool AreReflectionsFiltered(const FRTScene&) { return IsPathRoute() && AreReflectionPathsFiltered(); }
 
-void ListReflectionFilters(const FRTScene&, const FPassQuery&, std::vector<FShaderSource>& Out)
+void ListReflectionFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out)
 {
-	if (IsPathRoute()) { ListReflectionPathFilters(Out); }
+	if (IsPathRoute()) { ListReflectionPathFilters(GetPathSettings(Query), Out); }
 }
 
 FGraphTexture AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer)
