@@ -58,12 +58,16 @@ FRTStatus MeasureDoorIn(FStabilityStage& Stage, const char* What, const FView& V
 	std::vector<double> Means;
 	for (const FImage& Frame : Frames) { Means.push_back(MeanOver(Frame)); }
 	constexpr size_t Opened = Shut + Slide - 1, Closed = Opened + Open + Slide;
+	const auto FramesUntil = [&](size_t First, double Level, bool bRise) {
+		const double Frames = CountFramesTo(Means, First, Level, bRise);
+		return std::isnan(Frames) ? double(Open) : std::min(Frames, double(Open)); // it stays so for no longer
+	};
 	for (const size_t At : {Opened, Opened + 16, Opened + 60, Closed, Closed + 60}) { Stage.AddToStrip(Frames[At], Reference.Mean); }
 	const bool bStale = Stage.IsBroken() && !Stage.IsFaulty();
 	const bool bKeeps = Stage.KeepsHistory();
 	const auto Limit = [&](double Value) { return bKeeps && !bStale ? std::optional<double>(Value) : std::nullopt; };
-	Out.push_back({fmt::format("{}: frames to 90 %", What), CountFramesTo(Means, Opened, 0.9 * Whole, true), Most});
-	Out.push_back({fmt::format("{}: frames to 10 %", What), CountFramesTo(Means, Closed, 0.1 * Whole, false), Limit(Most)});
+	Out.push_back({fmt::format("{}: frames to 90 %", What), FramesUntil(Opened, 0.9 * Whole, true), Most});
+	Out.push_back({fmt::format("{}: frames to 10 %", What), FramesUntil(Closed, 0.1 * Whole, false), Limit(Most)});
 	Out.push_back({fmt::format("{}: 60 frames after it is shut", What), Means[Closed + 60] / Whole, Limit(0.01)});
 	return FRTStatus::Success();
 }
