@@ -7,12 +7,10 @@
 #include "../Library/Brdf.glsl"
 #include "../Library/GBuffer.glsl"
 #include "../Library/History.glsl"
-#include "../Rays/ThreadList.glsl"
+#include "../Rays/AppendThreads.glsl"
 
 layout(local_size_x = RAY_QUEUE_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FReflectionChangedConstants Push; };
-
-shared uint Count, First;
 
 const float LeastAlbedo = 0.1; // of a mirror whose noise is seen
 
@@ -44,12 +42,6 @@ void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Number = gl_GlobalInvocationID.y * (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) + gl_GlobalInvocationID.x, Thread;
-	if (gl_LocalInvocationIndex == 0u) { Count = 0u; }
-	barrier();
 	bool bFurther = FindThread(Push.List, Number, Thread) && IsTracedFurther(View, ivec2(Thread % View.Width, Thread / View.Width));
-	uint Place = bFurther ? atomicAdd(Count, 1u) : 0u;
-	barrier();
-	if (gl_LocalInvocationIndex == 0u && Count > 0u) { First = ReserveThreads(Push.OutList, Count); }
-	barrier();
-	if (bFurther) { FThreadListRef(Push.OutList).Threads[First + Place] = Thread; }
+	AppendThread(Push.OutList, bFurther, Thread);
 }

@@ -5,15 +5,13 @@
 #include "../Library/GBuffer.glsl"
 #include "../Library/RadianceCells.glsl"
 #include "../Library/UintTextures.glsl"
-#include "../Rays/ThreadList.glsl"
+#include "../Rays/AppendThreads.glsl"
 #include "Fade.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FReflectionListConstants Push; };
 
 const float LeastReflectance = 0.004; // nobody sees less
-
-shared uint Count, First;
 
 bool IsTraced(FViewConstants View, ivec2 Pixel)
 {
@@ -30,25 +28,16 @@ void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (gl_LocalInvocationIndex == 0u) { Count = 0u; }
-	barrier();
 	bool bInside = !IsOutsideView(View, uvec2(Pixel));
 	bool bTraced = bInside && IsTraced(View, Pixel);
-	uint Place = bTraced ? atomicAdd(Count, 1u) : 0u;
-	barrier();
-	if (gl_LocalInvocationIndex == 0u && Count > 0u) { First = ReserveThreads(Push.List, Count); }
-	barrier();
+	AppendThread(Push.List, bTraced, uint(Pixel.y) * View.Width + uint(Pixel.x));
 	if (!bInside) { return; }
 	if (Push.RadianceCells != FAddress(0) && all(equal(Pixel & 1, ivec2(0))))
 	{
 		FAddress Votes = FRadianceGridRef(Push.RadianceCells).Data.Votes;
 		FRadianceVoteRef(Votes).Data[Push.FirstVoter + VoterOfPixel(View, uvec2(Pixel))].Slot = NO_RADIANCE_CELL;
 	}
-	if (bTraced)
-	{
-		FThreadListRef(Push.List).Threads[First + Place] = uint(Pixel.y) * View.Width + uint(Pixel.x);
-		return;
-	}
+	if (bTraced) { return; }
 	imageStore(Images[Push.Radiance], Pixel, vec4(0.0));
 	imageStore(UintImages[Push.Mirrored], Pixel, uvec4(0u));
 	if (Push.Picture != NO_TEXTURE) { imageStore(Images[Push.Picture], Pixel, vec4(0.0, 0.0, 0.0, 1.0)); }

@@ -29,12 +29,27 @@ FAccumulated LoadAccumulated(ivec2 Texel)
 	return FAccumulated(GetSignal(History), Moments.x, Frames, Moments.y);
 }
 
+// Sums of texels. Frames is the sum of their inverses, since variances add up.
+void AddTexel(FAccumulated Texel, float Weight, inout FAccumulated Sum)
+{
+	Sum.Mean += Texel.Mean * Weight;
+	Sum.NoiseSigma += Texel.NoiseSigma * Weight;
+	Sum.NeighborhoodMean += Texel.NeighborhoodMean * Weight;
+	Sum.Frames += Weight / Texel.Frames;
+}
+
+// Weights: sum of those that were added, above 0.
+FAccumulated MeanOfTexels(FAccumulated Sum, float Weights)
+{
+	return FAccumulated(Sum.Mean / Weights, Sum.NoiseSigma / Weights, Weights / Sum.Frames, Sum.NeighborhoodMean / Weights);
+}
+
 #if CHANNELS == 1
 FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 {
 	if (Push.History == NO_TEXTURE) { return NoHistory; }
 	FReprojection R = LoadReprojection(Push.Reprojection, ivec2(Pixel));
-	FAccumulated Sum = NothingAccumulated; // Frames: sum of their inverses
+	FAccumulated Sum = NothingAccumulated;
 	float Weights = 0.0;
 	FSignalRange Range = FSignalRange(FSignal(MaxHalf), FSignal(0.0));
 	[[dont_unroll]] for (int Tap = 0; Tap < 4; ++Tap)
@@ -43,18 +58,15 @@ FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 		if (Weight <= 0.0) { continue; }
 		FAccumulated Texel = LoadAccumulated(GetTap(R, Tap));
 		if (Texel.Frames <= 0.0) { continue; }
-		Sum.Mean += Texel.Mean * Weight;
-		Sum.NoiseSigma += Texel.NoiseSigma * Weight;
-		Sum.NeighborhoodMean += Texel.NeighborhoodMean * Weight;
-		Sum.Frames += Weight / Texel.Frames;
+		AddTexel(Texel, Weight, Sum);
 		Weights += Weight;
 		Range = FSignalRange(min(Range.Low, Texel.Mean), max(Range.High, Texel.Mean));
 	}
 	if (Weights <= 0.0) { return NoHistory; }
 	// A history of few texels is worth less: it is as noisy as these, and its noise is theirs.
 	float Known = R.Coverage * Weights;
-	float Frames = Weights / Sum.Frames * Known * Known;
-	FAccumulated Past = FAccumulated(Sum.Mean / Weights, Sum.NoiseSigma / Weights, Frames, Sum.NeighborhoodMean / Weights);
+	FAccumulated Past = MeanOfTexels(Sum, Weights);
+	Past.Frames = Past.Frames * Known * Known;
 	bool bResampled = any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)));
 	FHistory History = FHistory(Past, 0.0, bResampled, R.Base + ivec2(R.Fraction + 0.5));
 	// If all texels are equal, or the position is a texel's, interpolation is exact already.
@@ -80,7 +92,7 @@ FHistory ResampleOtherSize(FViewConstants View, FAnchor Anchor)
 	ivec2 Base = ivec2(floor(Place)), Last = ivec2(View.PreviousWidth, View.PreviousHeight) - 1;
 	vec2 F = Place - vec2(Base);
 	FSurface Its = LoadSurface(Push.PreviousSurface, Anchor.Texel);
-	FAccumulated Past = LoadAccumulated(Anchor.Texel), Sum = NothingAccumulated; // Frames: sum of their inverses
+	FAccumulated Past = LoadAccumulated(Anchor.Texel), Sum = NothingAccumulated;
 	float Known = 0.0, Squares = 0.0, Count = 0.0;
 	[[dont_unroll]] for (int Tap = 0; Tap < 16; ++Tap)
 	{
@@ -92,13 +104,10 @@ FHistory ResampleOtherSize(FViewConstants View, FAnchor Anchor)
 		float Weight = Near.x * Near.y, Difference = GetBrightness(Texel.Mean) - GetBrightness(Past.Mean);
 		Squares += Difference * Difference;
 		Count += 1.0;
-		Sum.Mean += Texel.Mean * Weight;
-		Sum.NoiseSigma += Texel.NoiseSigma * Weight;
-		Sum.NeighborhoodMean += Texel.NeighborhoodMean * Weight;
-		Sum.Frames += Weight / Texel.Frames;
+		AddTexel(Texel, Weight, Sum);
 		Known += Weight;
 	}
-	if (Known > 0.0) { Past = FAccumulated(Sum.Mean / Known, Sum.NoiseSigma / Known, Known / Sum.Frames, Sum.NeighborhoodMean / Known); }
+	if (Known > 0.0) { Past = MeanOfTexels(Sum, Known); }
 	return FHistory(Past, LostShare * Squares / max(Count, 1.0), false, Anchor.Texel);
 }
 

@@ -22,12 +22,10 @@ FRTStatus MeasureTemple(FStabilityStage& Stage, std::vector<FStabilityFigure>& O
 	const FSunLight Sun = Stage.GetScene().GetScene().GetSun();
 	FSunLight Shining = Sun;
 	Shining.Irradiance *= Stage.IsFaulty() ? 1.2f : 1.0f;
-	std::vector<FStabilityShot> Shots(Warm + Count);
-	for (size_t I = 0; I < Shots.size(); ++I)
+	std::vector<FStabilityShot> Shots = RepeatView(View, Warm + Count, Warm);
+	for (FStabilityShot& Shot : Shots)
 	{
-		Shots[I].View = View;
-		Shots[I].Change = [Shining](FHostScene& Scene) { Scene.SetSun(Shining); };
-		Shots[I].bKeep = I >= Warm;
+		Shot.Change = [Shining](FHostScene& Scene) { Scene.SetSun(Shining); };
 	}
 	std::vector<FImage> Frames;
 	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }

@@ -17,14 +17,8 @@ namespace
 /// Frames of a still picture, the first Skip left out.
 FRTStatus PlayStill(FStabilityStage& Stage, const FView& View, size_t Skip, size_t Count, std::vector<FImage>& Out)
 {
-	std::vector<FStabilityShot> Shots(Skip + Count);
-	for (size_t I = 0; I < Shots.size(); ++I)
-	{
-		Shots[I].View = View;
-		Shots[I].bKeep = I >= Skip;
-	}
-	FRTStatus S = Stage.Play(Shots, Out);
-	std::erase_if(Out, [](const FImage& Frame) { return Frame.IsEmpty(); });
+	FRTStatus S = Stage.Play(RepeatView(View, Skip + Count, Skip), Out);
+	Out = DropUnkept(std::move(Out));
 	return S;
 }
 

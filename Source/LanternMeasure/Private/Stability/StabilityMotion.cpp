@@ -123,13 +123,8 @@ FRTStatus AverageRuns(FStabilityStage& Stage, const std::vector<FStabilityShot>&
 /// What the method shows of a moment when nothing moves: the mean of frames 40 to 55.
 FRTStatus PlayStill(FStabilityStage& Stage, const FView& View, double Time, FImage& Out)
 {
-	std::vector<FStabilityShot> Shots(56);
-	for (size_t I = 0; I < Shots.size(); ++I)
-	{
-		Shots[I].View = View;
-		Shots[I].Time = Time;
-		Shots[I].bKeep = I >= 40;
-	}
+	std::vector<FStabilityShot> Shots = RepeatView(View, 56, 40);
+	for (FStabilityShot& Shot : Shots) { Shot.Time = Time; }
 	std::vector<FImage> Frames;
 	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
 	Out = MeanImage({Frames.begin() + 40, Frames.end()});

@@ -249,14 +249,8 @@ FRTStatus MeasurePlanes(FStabilityStage& Stage, std::vector<FStabilityFigure>& O
 {
 	if (FRTStatus S = Stage.Load("planes"); !S) { return S; }
 	const FView View = Stage.MakeView();
-	std::vector<FStabilityShot> Shots(8);
-	for (FStabilityShot& Shot : Shots)
-	{
-		Shot.View = View;
-		Shot.bKeep = true;
-	}
 	std::vector<FImage> Frames;
-	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
+	if (FRTStatus S = Stage.Play(RepeatView(View, 8, 0), Frames); !S) { return S; }
 	const FImage Mean = MeanImage(Frames);
 	const FSceneDescription& Scene = Stage.GetScene().GetDescription();
 	const FCpuScene Cpu(Scene, 0.0);

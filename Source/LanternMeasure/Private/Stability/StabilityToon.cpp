@@ -72,12 +72,7 @@ FRTStatus MeasureToonEdge(FStabilityStage& Stage, std::vector<FStabilityFigure>&
 	if (FRTStatus S = Stage.Load("stability-toon"); !S) { return S; }
 	constexpr size_t Warm = 300, Count = 60;
 	constexpr double FramesPerSecond = 60.0;
-	std::vector<FStabilityShot> Shots(Warm + Count);
-	for (size_t I = 0; I < Shots.size(); ++I)
-	{
-		Shots[I].View = Stage.MakeView();
-		Shots[I].bKeep = I >= Warm;
-	}
+	const std::vector<FStabilityShot> Shots = RepeatView(Stage.MakeView(), Warm + Count, Warm);
 	std::vector<FImage> Frames;
 	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
 	Frames.erase(Frames.begin(), Frames.begin() + Warm);

@@ -299,6 +299,7 @@ FGraphTexture AddCombinePass(FFrameContext& Context, const FGBuffer& GBuffer, co
 	});
 	return Output;
 }
+
 /// Adds what the filter asks for, and the filter. Returns the filtered radiance.
 FGraphTexture AddFilter(FFrameContext& Context, const FGBuffer& GBuffer, FPaths& Paths)
 {
