@@ -59,8 +59,8 @@ FRTStatus MeasureDoorIn(FStabilityStage& Stage, const char* What, const FView& V
 	for (const FImage& Frame : Frames) { Means.push_back(MeanOver(Frame)); }
 	constexpr size_t Opened = Shut + Slide - 1, Closed = Opened + Open + Slide;
 	const auto FramesUntil = [&](size_t First, double Level, bool bRise) {
-		const double Frames = CountFramesTo(Means, First, Level, bRise);
-		return std::isnan(Frames) ? double(Open) : std::min(Frames, double(Open)); // it stays so for no longer
+		const double Passed = CountFramesTo(Means, First, Level, bRise);
+		return std::isnan(Passed) ? double(Open) : std::min(Passed, double(Open)); // it stays so for no longer
 	};
 	for (const size_t At : {Opened, Opened + 16, Opened + 60, Closed, Closed + 60}) { Stage.AddToStrip(Frames[At], Reference.Mean); }
 	const bool bStale = Stage.IsBroken() && !Stage.IsFaulty();
