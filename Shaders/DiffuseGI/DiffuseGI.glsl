@@ -3,6 +3,7 @@
 // RADIANCE_CELLS: paths end in radiance cells. One pixel of four votes for the places of cells, in turn.
 // DEFERS_PATHS: paths that meet no cell are left to a second launch, of DEFERRED_PATHS, which has a thread for each of their pixels. Its files
 // are Deferred.rgen and Deferred.comp: where one variant of a file serves for another, neither launch serves for the other.
+// AUDITS_CELLS: see CellAudit.glsl.
 // GUIDED_PATHS: see PathGuide.glsl. Each thread leaves a record of its first path.
 // SCREEN_PROBES: paths start at screen probes instead of pixels.
 // SHARED_PATHS: paths are left for all pixels around, which a pass behind them lights.
@@ -106,6 +107,9 @@ void GatherPaths(uvec2 Thread)
 	BeginLookUps(View, uvec2(Pixel));
 	ChooseRadianceRest(uvec2(Pixel), View);
 #endif
+#ifdef AUDITS_CELLS
+	BeginCellAudit(Push.RadianceCells, View, uvec2(Pixel), Thread, TurnThreads(uvec2(View.Width, View.Height)));
+#endif
 #ifdef SHARED_PATHS
 	KeptPath = NoKeptPath;
 #endif
@@ -144,6 +148,9 @@ void GatherPaths(uvec2 Thread)
 		DeferThread(Thread);
 		return;
 	}
+#endif
+#if defined(AUDITS_CELLS) && defined(DEFERRED_PATHS)
+	WriteCellAudit(Push.RadianceCells);
 #endif
 	uint Number = Thread.y * TurnThreads(uvec2(View.Width, View.Height)).x + Thread.x;
 #ifdef GUIDED_PATHS

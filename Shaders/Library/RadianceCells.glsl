@@ -255,6 +255,10 @@ uint FindRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter
 	return IsRadianceKnown(Grid, Slot, LeastCoarseCount, OutLight) ? FoundCoarse : FoundNone;
 }
 
+#ifdef AUDITS_CELLS
+uint RadianceAnswer = RADIANCE_AUDIT_NONE; // what the thread's last look-up has found
+#endif
+
 // Returns whether the light at a place is known, as FindRadiance.
 bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out FCellLight OutLight)
 {
@@ -266,6 +270,9 @@ bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vot
 		else if (Found == FoundCoarse) { atomicAdd(Statistics.Data.Coarse, 1u); }
 		else { atomicAdd(Statistics.Data.Missed, 1u); }
 	}
+#ifdef AUDITS_CELLS
+	RadianceAnswer = Found == FoundCoarse ? RADIANCE_AUDIT_COARSE : Query.bFoliage ? RADIANCE_AUDIT_LEAVES : RADIANCE_AUDIT_CELL;
+#endif
 	return Found != FoundNone;
 }
 

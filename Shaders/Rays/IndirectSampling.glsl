@@ -10,8 +10,14 @@
 
 const float MaxHalf = 65504.0;
 
+#ifdef AUDITS_CELLS
+const float MinHalf = -MaxHalf; // a correction may take more than there is, and must: the mean is right
+#else
+const float MinHalf = 0.0;
+#endif
+
 // Removes NaNs, and clamps to what fp16 holds: a sun may be brighter, and would become infinite in the output.
-vec3 ClampToFinite(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(MaxHalf)), vec3(0.0), isnan(L)); }
+vec3 ClampToFinite(vec3 L) { return mix(clamp(L, vec3(MinHalf), vec3(MaxHalf)), vec3(0.0), isnan(L)); }
 
 #ifdef SECOND_LOBE
 // What SecondLobe reflects, which the paths of a white Lambert lobe light as well.

@@ -2,6 +2,7 @@
 // kind of light with BRDF sampling by multiple importance sampling (Veach 1997), and ends paths by Russian roulette.
 // RAY_QUERY: rays are traced inline, in compute shaders; otherwise through a ray-tracing pipeline.
 // RADIANCE_CELLS: paths end where a radiance cell knows the light; the thread calls BeginRadianceLookUps first.
+// AUDITS_CELLS: some go on although one does, see CellAudit.glsl.
 // DEFERS_PATHS: paths also end where none does; bRadianceDeferred then says that what they bring is void.
 // KEEPS_HIT: what the first ray of a gathered path met is kept, behind mirrors as well. See FKeptHit.
 // COUNTS_ENDS: PathEnd says how a gathered path ended, and bPathLit whether light was sampled at its first hit. With ReflectionTypes.h before.
@@ -35,6 +36,9 @@
 #include "PathLights.glsl"
 #ifdef RADIANCE_CELLS
 #include "RadianceLookUps.glsl"
+#endif
+#ifdef AUDITS_CELLS
+#include "CellAudit.glsl"
 #endif
 #if defined(GUIDED_PATHS) || defined(SECOND_LOBE)
 #define MIXED_DIRECTIONS
@@ -181,22 +185,55 @@ vec3 ChooseShown(vec3 Share, float U, out bool bShown)
 #define LENGTH_PASSED 0.0
 #endif
 
+#ifdef AUDITS_CELLS
+// Ends a path that has brought Radiance, or lets it go on behind what a cell has answered: see GoesOnBehindAnswer. Returns whether it ends.
+bool EndsAtAnswer(vec3 Answered, inout vec3 Radiance, inout uint MaxBounces)
+{
+	if (GoesOnBehindAnswer(Radiance, Answered))
+	{
+#ifdef DEFERS_PATHS
+		bRadianceDeferred = true;
+		return true;
+#else
+		MaxBounces = AuditBounces;
+		return false;
+#endif
+	}
+	Radiance += Answered;
+	return true;
+}
+#endif
+
 #ifdef RADIANCE_CELLS
 // Adds what a radiance cell knows of the light at a hit, or weighs the path for what it has not found, and returns whether the path ends.
 // bLooksUp: also before its last hit.
-bool EndsInCells(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, uint Bounce, uint MaxBounces, bool bLooksUp, inout vec3 Throughput,
-                 inout vec3 Radiance, inout FRandom Random)
+bool EndsInCells(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, uint Bounce, inout uint MaxBounces, bool bLooksUp,
+                 inout vec3 Throughput, inout vec3 Radiance, inout FRandom Random)
 {
 	vec3 Known;
 	float NearCells = Bounce == 1u ? RadianceNear : 0.0;
 	bool bLast = Bounce >= MaxBounces;
+#ifdef AUDITS_CELLS
+	if (CellAudit.Answer != RADIANCE_AUDIT_NONE) { return bLast; } // it has had its answer
+#endif
 	if ((bLast || bLooksUp) && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, bLast, ChooseLevel(Random), Known))
 	{
 		NOTE_END(bLast && IsMirror(Brdf) ? PATH_END_STAND_IN : PATH_END_CELL);
+#ifdef AUDITS_CELLS
+		return EndsAtAnswer(Throughput * Known, Radiance, MaxBounces);
+#else
 		Radiance += Throughput * Known;
 		return true;
+#endif
 	}
 	Throughput *= TakeRadianceRest();
+#ifdef AUDITS_CELLS
+	if (bLast && Throughput != vec3(0.0))
+	{
+		RadianceAnswer = RADIANCE_AUDIT_LOST;
+		return EndsAtAnswer(vec3(0.0), Radiance, MaxBounces);
+	}
+#endif
 	if (bLast || Throughput == vec3(0.0)) { return true; }
 #ifdef DEFERS_PATHS
 	bRadianceDeferred = true;
@@ -403,6 +440,9 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 		KeepHit(Hit, Direction, vec3(1.0), 0.0);
 #endif
 		Radiance = FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, bShown, Random);
+#ifdef AUDITS_CELLS
+		Radiance = SettleAnswer(Radiance, Luminance(Sample.Weight));
+#endif
 	}
 	Gathered.Light = Sample.Weight * Radiance;
 #ifdef SHARED_PATHS

@@ -98,6 +98,24 @@ struct FRadianceCellStatistics
 };
 LANTERN_ASSERT_SIZE(FRadianceCellStatistics, 28);
 
+// Paths that are followed although a cell has answered. The launch is cut into blocks, and one thread of each writes what its path has found.
+#define RADIANCE_AUDIT_SIDE 64u    // blocks in a row, and rows
+#define RADIANCE_AUDIT_PATHS 4096u // blocks
+// What has answered.
+#define RADIANCE_AUDIT_NONE 0u
+#define RADIANCE_AUDIT_CELL 1u
+#define RADIANCE_AUDIT_LEAVES 2u // a thick cell without a side
+#define RADIANCE_AUDIT_COARSE 3u // a coarse cell that stands in
+#define RADIANCE_AUDIT_LOST 4u   // none: the path ended at its last surface
+#define RADIANCE_AUDIT_CLASSES 5u
+
+struct FRadianceAuditPath
+{
+	uint Answer;             // RADIANCE_AUDIT_…; NONE: no path of the thread has ended at a surface
+	float Answered, Followed; // luminance that the pixel takes of the answer, and of what the path has found in its place
+};
+LANTERN_ASSERT_SIZE(FRadianceAuditPath, 12);
+
 // The table as shaders see it, one block a frame.
 struct FRadianceGrid
 {
@@ -127,8 +145,11 @@ struct FRadianceGrid
 	FAddress Movers;      // FMovedCaster[MoverCount]: what has moved lately
 	uint MoverCount;
 	float NearCells;      // rays of pixels that are shorter than so many cells of their place are followed, and end in none
+	FAddress Audit;       // FRadianceAuditPath[RADIANCE_AUDIT_PATHS], zero before; 0: no path is followed for it
+	float FollowChance;   // with which a pixel's paths are followed to correct what cells answer, with Audit
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FRadianceGrid, 160);
+LANTERN_ASSERT_SIZE(FRadianceGrid, 176);
 
 // Constants of the passes that keep the table.
 struct FRadianceCellConstants

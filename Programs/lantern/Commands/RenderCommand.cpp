@@ -138,6 +138,21 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 	return Json;
 }
 
+nlohmann::json AuditToJson(const FRadianceAuditSums& Sums)
+{
+	return {{"paths", Sums.Paths}, {"answered", Sums.Answered}, {"followed", Sums.Followed}, {"ratio", Sums.GetRatio()},
+	    {"standard_error", Sums.GetStandardError()}};
+}
+
+void ReportAudit(const FRadianceAudit& Audit, nlohmann::json& InOut)
+{
+	const FRadianceAuditSums All = Audit.GetAll();
+	fmt::print("radiance cells: followed paths have {:.4f} of their light, standard error {:.4f}, {:.0f} paths\n", All.GetRatio(),
+	    All.GetStandardError(), All.Paths);
+	InOut["radiance_audit"] = {{"frames", Audit.Frames}, {"all", AuditToJson(All)}, {"cells", AuditToJson(Audit.Cells)},
+	    {"leaves", AuditToJson(Audit.Leaves)}, {"coarse", AuditToJson(Audit.Coarse)}, {"lost", AuditToJson(Audit.Lost)}};
+}
+
 void PrintTable(const nlohmann::json& Json)
 {
 	fmt::print("{:<16} {:>10} {:>10} {:>12}\n", "pass", "GPU ms", "CPU ms", "rays");
@@ -220,6 +235,12 @@ public:
 	std::optional<bool> IsSettled() const { return Settled; }
 	const FSettling& GetSettling() const { return Settling; }
 	const FFigures& GetFigures() const { return Figures; }
+	/// Returns that of the second half of the frames: cells were new in the first.
+	FRadianceAudit GetAudit() const
+	{
+		FRadianceAudit Audit = Session.GetEngine().GetRenderer().GetRadianceAudit();
+		return Audit -= EarlyAudit;
+	}
 	const FCapturedFrame& GetFrame() const { return Frame; }
 	const FImage& GetPicture() const { return Frame.Display.IsEmpty() ? Frame.Lighting : Frame.Display; }
 
@@ -247,6 +268,7 @@ private:
 		if (Done <= 3 && Done + 1 < Most) { Figures = {}; }
 		Figures.Add(GetTimings(Engine.GetRenderer()));
 		++Done;
+		if (Done == Most / 2) { EarlyAudit = Engine.GetRenderer().GetRadianceAudit(); }
 		return FRTStatus::Success();
 	}
 
@@ -258,6 +280,7 @@ private:
 	uint32_t Done = 0;
 	FCapturedFrame Frame; // the newest that is captured
 	FFigures Figures;
+	FRadianceAudit EarlyAudit; // of the first half of the frames
 	FSettling Settling;
 	std::optional<bool> Settled; // absent: nobody asked
 };
@@ -308,6 +331,7 @@ int RunRender(FRenderOptions Options)
 		Options.Frames = Loop.GetFrameCount();
 		nlohmann::json Json = MakeJson(Session, Options, Loop.GetFigures(), Loop.IsSettled());
 		PrintTable(Json);
+		if (const FRadianceAudit Audit = Loop.GetAudit(); Audit.Frames > 0) { ReportAudit(Audit, Json); }
 		if (Pixel)
 		{
 			FRenderer& Renderer = Session.GetEngine().GetRenderer();

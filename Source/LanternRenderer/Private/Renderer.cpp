@@ -9,6 +9,7 @@
 
 #include "Feedback/AnyHitCounter.h"
 #include "Feedback/PixelExplainer.h"
+#include "Feedback/RadianceAuditor.h"
 #include "Feedback/RadianceCellCounter.h"
 #include "Feedback/ReflectionCounter.h"
 #include "Feedback/StandInFeedback.h"
@@ -60,6 +61,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       ShaderTable(InDevice),
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       CellCounter(std::make_unique<FRadianceCellCounter>(InDevice)),
+      CellAuditor(std::make_unique<FRadianceAuditor>(InDevice)),
       ReflectionCounter(std::make_unique<FReflectionCounter>(InDevice)),
       Explainer(std::make_unique<FPixelExplainer>(InDevice)),
       Sky(std::make_unique<FSkyBake>(InDevice)),
@@ -89,6 +91,7 @@ FRTStatus FRenderer::WaitForAll()
 	}
 	AnyHits->TakeAll();
 	CellCounter->TakeAll();
+	CellAuditor->TakeAll();
 	ReflectionCounter->TakeAll();
 	Explainer->TakeAll();
 	RayCounter->TakeAll();
@@ -97,6 +100,7 @@ FRTStatus FRenderer::WaitForAll()
 
 const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
 const FRadianceCellCounts& FRenderer::GetRadianceCells() const { return CellCounter->Get(); }
+const FRadianceAudit& FRenderer::GetRadianceAudit() const { return CellAuditor->Get(); }
 const FReflectionCounts& FRenderer::GetReflectionCounts() const { return ReflectionCounter->Get(); }
 const FPixelExplanation& FRenderer::GetPixelExplanation() const { return Explainer->Get(); }
 const FRayCounts& FRenderer::GetRayCounts() const { return RayCounter->Get(); }
@@ -382,6 +386,7 @@ void FRenderer::BeginFeedback()
 {
 	AnyHits->BeginFrame(FlightIndex);
 	CellCounter->BeginFrame(FlightIndex);
+	CellAuditor->BeginFrame(FlightIndex);
 	ReflectionCounter->BeginFrame(FlightIndex);
 	Explainer->BeginFrame(FlightIndex);
 	StandIns->BeginFrame(FlightIndex, Context->Scene);
@@ -396,6 +401,7 @@ void FRenderer::StartCounting()
 {
 	FRTStatus Status = AnyHits->Start();
 	if (Status) { Status = CellCounter->Start(AreRadianceCellsCounted()); }
+	if (Status) { Status = CellAuditor->Start(); }
 	if (Status) { Status = ReflectionCounter->Start(ArePathEndsCounted()); }
 	if (Status) { Status = Explainer->Start(GetExplainedPixel().has_value()); }
 	if (Status && bStandIns) { Status = StandIns->Start(Context->Scene, Context->View.Position); }
@@ -403,6 +409,8 @@ void FRenderer::StartCounting()
 	AnyHits->GetCounters().AddClear(*Graph);
 	CellCounter->GetCounters().AddClear(*Graph);
 	Context->RadianceCellStatistics = CellCounter->GetCounters().GetAddress();
+	CellAuditor->GetCounters().AddClear(*Graph);
+	Context->RadianceAudit = CellAuditor->GetCounters().GetAddress();
 	ReflectionCounter->GetCounters().AddClear(*Graph);
 	Context->ReflectionStatistics = ReflectionCounter->GetCounters().GetAddress();
 	Explainer->GetCounters().AddClear(*Graph);
@@ -414,6 +422,7 @@ void FRenderer::EndFeedback(bool bSubmitted)
 {
 	AnyHits->GetCounters().EndFrame(bSubmitted);
 	CellCounter->GetCounters().EndFrame(bSubmitted);
+	CellAuditor->GetCounters().EndFrame(bSubmitted);
 	ReflectionCounter->GetCounters().EndFrame(bSubmitted);
 	Explainer->GetCounters().EndFrame(bSubmitted);
 	StandIns->GetCounters().EndFrame(bSubmitted);

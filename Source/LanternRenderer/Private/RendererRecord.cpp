@@ -4,6 +4,7 @@
 
 #include "Feedback/AnyHitCounter.h"
 #include "Feedback/PixelExplainer.h"
+#include "Feedback/RadianceAuditor.h"
 #include "Feedback/RadianceCellCounter.h"
 #include "Feedback/ReflectionCounter.h"
 #include "Feedback/StandInFeedback.h"
@@ -53,6 +54,7 @@ FRTStatus FRenderer::Execute(const std::function<FRTStatus()>& Run)
 	AddRayPasses(); // also where nobody asked: what was begun is recorded, so that the next frame finds it done
 	AnyHits->GetCounters().AddRead(*Graph);
 	CellCounter->GetCounters().AddRead(*Graph);
+	CellAuditor->GetCounters().AddRead(*Graph);
 	ReflectionCounter->GetCounters().AddRead(*Graph);
 	Explainer->GetCounters().AddRead(*Graph);
 	StandIns->GetCounters().AddRead(*Graph);

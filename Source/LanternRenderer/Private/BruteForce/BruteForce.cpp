@@ -5,6 +5,7 @@
 
 #include "BruteForce/PathGuide.h"
 #include "BruteForceTypes.h"
+#include "Feedback/RadianceAuditor.h"
 #include "Lights/LightCells.h"
 #include "LocalLights/Emitters.h"
 #include "RadianceCells/RadianceCells.h"
@@ -33,6 +34,13 @@ FShaderSource MakeFillSource(EPixelRate Rate)
 	FShaderDefines Defines;
 	AddRateDefine(Rate, Defines);
 	return MakeComputeSource("BruteForce/Fill.comp", std::move(Defines));
+}
+
+void AddAuditDefines(FShaderDefines& InOut)
+{
+	if (GetResidual() == EResidual::Off) { return; }
+	InOut.emplace_back("AUDITS_CELLS", "1");
+	if (!IsResidualWeighted()) { InOut.emplace_back("WRONG_RESIDUAL", "1"); }
 }
 
 /// Second: may be invalid.
@@ -257,6 +265,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	{
 		AddRadianceCellDefines(Rays.Defines);
 		Rays.Defines.emplace_back(DefersPaths, "1");
+		if (!bProbes) { AddAuditDefines(Rays.Defines); }
 		SetHitPrograms(EHitPrograms::Standard, Rays);
 	}
 	ListLightCellShaders(Query.Facts, Rays.Compute);

@@ -5,6 +5,7 @@
 
 #include "BruteForce/BruteForce.h"
 #include "Denoise/Denoise.h"
+#include "Feedback/RadianceAuditor.h"
 #include "HalfFrame/HalfFrame.h"
 #include "Lights/LightCells.h"
 #include "MovedShare/MovedShare.h"
@@ -62,8 +63,12 @@ constexpr uint32_t ReuseStep = 2;           // pixels, from one path to the next
 bool IsProbeRoute() { return CVarRoute.GetOnRenderThread() == 2; }
 /// Screen probes are few by themselves.
 bool IsHalfWanted() { return CVarRoute.GetOnRenderThread() == 3 && CVarHalf.GetOnRenderThread(); }
-/// Pixels with many paths of their own know enough.
-bool IsReused() { return CVarRoute.GetOnRenderThread() == 3 && CVarReuse.GetOnRenderThread() && CVarSamples.GetOnRenderThread() == 1; }
+/// Pixels with many paths of their own know enough. A correction may be negative, which paths that are shared cannot be.
+bool IsReused()
+{
+	return CVarRoute.GetOnRenderThread() == 3 && CVarReuse.GetOnRenderThread() && CVarSamples.GetOnRenderThread() == 1 &&
+	       GetResidual() != EResidual::Corrected;
+}
 
 EPixelRate GetTraceRate() { return static_cast<EPixelRate>(CVarRate.GetOnRenderThread()); }
 /// Rate of pixels that have a value of their own.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "Feedback/RadianceAuditor.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "LanternCore/Text/Log.h"
 #include "Lights/LightCells.h"
@@ -160,6 +161,8 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 	}
 	Cells->Table = History.Buffer;
 	Cells->Grid.Statistics = Context.RadianceCellStatistics;
+	Cells->Grid.Audit = Context.RadianceAudit;
+	Cells->Grid.FollowChance = GetFollowChance();
 	const uint32_t Age = Context.RadianceEvents->CountFrames(History.bFresh);
 	Cells->Grid.Turn = Age & RADIANCE_CELL_TURN_MASK;
 	Cells->Grid.RestChance = Age < FramesWithoutCells ? 1.0f : RestChance;

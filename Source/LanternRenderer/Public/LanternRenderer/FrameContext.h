@@ -235,6 +235,7 @@ struct FFrameContext : FPixelsOfFrame
 	FMovedCasters* MovedCasters = nullptr;     ///< what may have changed the sun's shadows since the view's last frame
 	FRadianceEvents* RadianceEvents = nullptr; ///< what has changed indirect light
 	uint64_t RadianceCellStatistics = 0;       ///< address of FRadianceCellStatistics; 0: nothing is counted
+	uint64_t RadianceAudit = 0;                ///< address of FRadianceAuditPath[RADIANCE_AUDIT_PATHS]; 0: no path is audited
 	uint64_t ReflectionStatistics = 0;         ///< address of FReflectionStatistics; 0: nothing is counted
 	uint64_t ExplainedPixel = 0;               ///< address of FExplainedPixel; 0: none is explained
 	FRayQueueCounter* RayCounter = nullptr;

@@ -15,6 +15,7 @@
 #include "LanternCore/Tasks/Tasks.h"
 #include "LanternRenderer/FrameContext.h"
 #include "LanternRenderer/FrameCounts.h"
+#include "LanternRenderer/RadianceAudit.h"
 
 namespace Lantern
 {
@@ -90,6 +91,7 @@ class FHistoryResources;
 class FLightCells;
 class FMovedCasters;
 class FPixelExplainer;
+class FRadianceAuditor;
 class FRadianceCellCounter;
 class FRadianceEvents;
 class FRayQueueCounter;
@@ -176,6 +178,7 @@ public:
 	const FAnyHitCounts& GetAnyHits() const;
 	const FRayCounts& GetRayCounts() const;
 	const FRadianceCellCounts& GetRadianceCells() const;
+	const FRadianceAudit& GetRadianceAudit() const;
 	const FReflectionCounts& GetReflectionCounts() const;
 	const FPixelExplanation& GetPixelExplanation() const;
 	/// Makes executed frames leave a text for DumpGraph. Off by default, because it takes longer than the graph itself.
@@ -219,6 +222,7 @@ private:
 	FShaderTable ShaderTable;
 	std::unique_ptr<FAnyHitCounter> AnyHits;
 	std::unique_ptr<FRadianceCellCounter> CellCounter;
+	std::unique_ptr<FRadianceAuditor> CellAuditor;
 	std::unique_ptr<FReflectionCounter> ReflectionCounter;
 	std::unique_ptr<FPixelExplainer> Explainer;
 	std::unique_ptr<FSkyBake> Sky;

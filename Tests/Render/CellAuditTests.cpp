@@ -1,0 +1,98 @@
+// Paths that are followed although a radiance cell has answered: what they find is the truth, says how wrong cells are, and corrects them.
+#include "CachedGIFixture.h"
+#include "LanternRenderer/RadianceAudit.h"
+
+namespace Lantern
+{
+
+namespace
+{
+
+class FCellAuditTest : public FCachedGITest
+{
+protected:
+	static constexpr uint32_t AllBounces = 64;
+
+	void SetUp() override
+	{
+		FSignalTest::SetUp();
+		SetRoute("3");
+	}
+
+	static FRadianceAudit TakeAudit()
+	{
+		EXPECT_TRUE(GetEngine().GetRenderer().WaitForAll());
+		return GetEngine().GetRenderer().GetRadianceAudit();
+	}
+
+	/// A floor before a glossy wall, whose cells lack their directions, so that they are wrong by a sixth.
+	void LoadWall()
+	{
+		FTestScene Scene("wall");
+		FHostMaterial Glossy;
+		Glossy.BaseColor = glm::vec4(0.1f, 0.1f, 0.1f, 1.0f);
+		Glossy.Metallic = 0.0f;
+		Glossy.Roughness = 0.6f;
+		const int32_t Wall = Scene.AddMaterial(Glossy), Floor = Scene.AddLambert(glm::vec3(0.5f));
+		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Floor, 4.0f), {Wall, {{-4, 0, -2}, {4, 0, -2}, {4, 6, -2}, {-4, 6, -2}}}}));
+		ASSERT_TRUE(Load(std::move(Scene.Scene)));
+		SetSun(0.53, 10.0f, {0.1, -1, -0.4});
+		SetVariable("r.RT.GI.Cells.Near", "0");
+		SetVariable("r.RT.Debug.GI.CellDirection", "0");
+	}
+	const FView WallView = LookAt({0, 1.5, 3}, {0, 0, -0.5}, 0.5f, 48, 27);
+};
+
+TEST_F(FCellAuditTest, CorrectedCellsAreWithoutBias)
+{
+	REQUIRE_SCENE(Scene, "cornell/cornell.gltf");
+	SetVariable("r.RT.GI.Residual", "2");
+	SetVariable("r.RT.GI.Cells.SizeAngle", "1"); // most look-ups fail, and the others are wrong
+	ASSERT_TRUE(Load(Scene));
+	ExpectUnbiased("corrected cells", ESignal::DiffuseGI, MakeView(48, 48), 192, 256, AllBounces, 0.005);
+}
+
+// Without the chance, seven eighths of what cells lack stay missing.
+TEST_F(FCellAuditTest, ChanceOfCorrectionCounts)
+{
+	LoadWall();
+	const double Reference = MeanGreen(TraceSignal(ESignal::DiffuseGI, WallView, 1024, AllBounces));
+	const auto Measure = [&](const char* Residual, const char* Chance) {
+		SetVariable("r.RT.GI.Residual", Residual);
+		SetVariable("r.RT.Debug.GI.ResidualChance", Chance);
+		return MeanGreen(RenderSettled(WallView, 256)) / Reference;
+	};
+	const double Cells = Measure("0", "1"), Corrected = Measure("2", "1"), Wrong = Measure("2", "0");
+	PrintFigure(fmt::format("wrong cells / reference {:.4f}, corrected {:.4f}, without the chance {:.4f}", Cells, Corrected, Wrong));
+	EXPECT_LT(Cells, 0.85);
+	EXPECT_NEAR(Corrected, 1.0, 0.02);
+	EXPECT_LT(Wrong, 0.9);
+}
+
+TEST_F(FCellAuditTest, AuditSaysHowWrongCellsAre)
+{
+	LoadWall();
+	const double Reference = MeanGreen(TraceSignal(ESignal::DiffuseGI, WallView, 1024, AllBounces));
+	const FRadianceAudit Before = TakeAudit();
+	const FImage Unaudited = RenderSettled(WallView, 64);
+	EXPECT_EQ(TakeAudit().Frames, Before.Frames) << "nothing is followed unless asked for";
+	LoadWall();
+	SetVariable("r.RT.GI.Residual", "1");
+	const FImage Audited = RenderSettled(WallView, 64);
+	// The second launch may round otherwise than the first.
+	EXPECT_EQ(FractionDiffering(Unaudited, Audited, 1.0e-3), 0.0) << "an audit does not change what it audits";
+	FRadianceAudit Audit = TakeAudit();
+	Audit -= Before;
+	const FRadianceAuditSums All = Audit.GetAll();
+	const double Ratio = MeanGreen(Audited) / Reference;
+	PrintFigure(fmt::format("cells / reference {:.4f}; times the audit's ratio {:.4f}, whose standard error is {:.4f}, {} paths", Ratio,
+	    Ratio * All.GetRatio(), All.GetStandardError(), All.Paths));
+	EXPECT_LT(Ratio, 0.85);
+	EXPECT_LT(All.GetStandardError(), 0.03);
+	EXPECT_NEAR(Ratio * All.GetRatio(), 1.0, 0.02 + 3.0 * All.GetStandardError());
+	EXPECT_EQ(Audit.Frames, 64u + WarmFrames);
+	EXPECT_EQ(Audit.Leaves.Paths, 0.0);
+}
+
+} // namespace
+} // namespace Lantern
