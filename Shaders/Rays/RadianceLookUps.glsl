@@ -78,15 +78,16 @@ FSplitLight SplitCellLight(vec3 LocalFrom)
 	return Split;
 }
 
+const float LeastCellRoughness = 0.4; // of lobes that reflect a cell's light, which comes from around the mean direction
+
 // Returns what a surface reflects towards V of a cell's light.
 vec3 ReflectCellLight(FCellLight Light, FBrdf Brdf, float Roughness, vec3 LocalV, vec3 LocalFrom)
 {
-	const float LeastRoughness = 0.4; // light comes from around the mean direction
 	FSplitLight Split = SplitCellLight(LocalFrom);
 	vec3 Reflected = DiffuseReflectance(Brdf, LocalV.z) + (1.0 - Split.Share) * SpecularReflectance(Brdf, LocalV.z, Roughness);
 	if (Split.From != vec3(0.0))
 	{
-		Brdf.Alpha = max(Brdf.Alpha, LeastRoughness * LeastRoughness);
+		Brdf.Alpha = max(Brdf.Alpha, LeastCellRoughness * LeastCellRoughness);
 		vec3 Diffuse, Specular;
 		EvaluateLobes(Brdf, LocalV, Split.From, Diffuse, Specular);
 		Reflected += Split.Share * Pi * Specular;
@@ -154,6 +155,27 @@ FRadianceQuery TurnQuery(FRadianceQuery Query)
 // Returns what leaves on V's side of a cell's light that has arrived on the other.
 vec3 ShowFromBehind(FCellLight Light, FBrdf Brdf, vec3 LocalV) { return Light.Irradiance * GetBackAlbedo(Brdf) * LayerTransmittance(Brdf, LocalV.z); }
 
+// As ReflectCellLight, for a cell of leaves that light shines through, which holds the mean of their two sides. Even light has no mean direction
+// there. The rest reaches the side that faces it, which has twice the mean, and not the other.
+vec3 ReflectLeafLight(FCellLight Light, FBrdf Brdf, float Roughness, vec3 LocalV, vec3 LocalFrom)
+{
+	float Share = min(length(LocalFrom), 1.0);
+#ifdef NO_CELL_DIRECTION // r.RT.Debug.GI.CellDirection
+	Share = 0.0;
+#endif
+	FBrdf Front = MakeFrontLobes(Brdf);
+	float Facing = LocalFrom.z > 0.0 ? 2.0 * Share : 0.0, OnFront = 1.0 - Share + Facing, OnBack = 2.0 - OnFront;
+	vec3 Reflected = OnFront * DiffuseReflectance(Front, LocalV.z) + (1.0 - Share) * SpecularReflectance(Front, LocalV.z, Roughness);
+	if (Facing > 0.0)
+	{
+		vec3 Diffuse, Specular;
+		Front.Alpha = max(Front.Alpha, LeastCellRoughness * LeastCellRoughness);
+		EvaluateLobes(Front, LocalV, normalize(LocalFrom), Diffuse, Specular);
+		Reflected += Facing * Pi * Specular;
+	}
+	return Light.Irradiance * Reflected + OnBack * ShowFromBehind(Light, Brdf, LocalV);
+}
+
 // As LookUpReflected, of the light that has arrived on the other side of a hit. Query: of the hit's own side. Voter: one of the two sides votes;
 // gets who votes for the other one.
 bool LookUpBack(FRadianceGrid Grid, FBrdf Brdf, FRadianceQuery Query, inout FRadianceVoter Voter, vec3 LocalV, float U, out vec3 OutLight)
@@ -204,10 +226,14 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 Loca
 #ifdef SMOOTH_RADIANCE
 	SmoothRadiance(Grid, Query, U, Light);
 #endif
-	OutLight += ReflectCellLight(Light, MakeFrontLobes(Brdf), Hit.Roughness, LocalV, Light.From * Basis);
 #ifdef HAS_DIFFUSE_TRANSMISSION
-	if (bOneCell) { OutLight += ShowFromBehind(Light, Brdf, LocalV); }
+	if (bOneCell)
+	{
+		OutLight += ReflectLeafLight(Light, Brdf, Hit.Roughness, LocalV, Light.From * Basis);
+		return true;
+	}
 #endif
+	OutLight += ReflectCellLight(Light, MakeFrontLobes(Brdf), Hit.Roughness, LocalV, Light.From * Basis);
 	return true;
 }
 

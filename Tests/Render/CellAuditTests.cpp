@@ -47,7 +47,7 @@ TEST_F(FCellAuditTest, CorrectedCellsAreWithoutBias)
 {
 	REQUIRE_SCENE(Scene, "cornell/cornell.gltf");
 	SetVariable("r.RT.GI.Residual", "2");
-	SetVariable("r.RT.GI.Cells.SizeAngle", "1"); // most look-ups fail, and the others are wrong
+	SetVariable("r.RT.GI.Cells.SizeAngle", "1"); // many look-ups fail, and the others are wrong
 	ASSERT_TRUE(Load(Scene));
 	ExpectUnbiased("corrected cells", ESignal::DiffuseGI, MakeView(48, 48), 192, 256, AllBounces, 0.005);
 }
@@ -92,6 +92,33 @@ TEST_F(FCellAuditTest, AuditSaysHowWrongCellsAre)
 	EXPECT_NEAR(Ratio * All.GetRatio(), 1.0, 0.02 + 3.0 * All.GetStandardError());
 	EXPECT_EQ(Audit.Frames, 64u + WarmFrames);
 	EXPECT_EQ(Audit.Leaves.Paths, 0.0);
+}
+
+// Leaves share a cell with both of their sides. One of them faces the light. The planted fault gives both the mean.
+TEST_F(FCellAuditTest, LeavesShareTheirCellsRightly)
+{
+	SetVariable("r.RT.GI.Cells.SizeAngle", "0.02");
+	SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "1000000");
+	SetVariable("r.RT.GI.Residual", "1");
+	for (const bool bDirection : {true, false})
+	{
+		ASSERT_TRUE(Load("leaves"));
+		const FView View = MakeView(96, 54);
+		SetVariable("r.RT.Debug.GI.CellDirection", bDirection ? "1" : "0");
+		RenderSignal(ESignal::DiffuseGI, View, WarmFrames);
+		const FRadianceAudit Before = TakeAudit();
+		RenderSignal(ESignal::DiffuseGI, View, 96, WarmFrames);
+		FRadianceAudit Audit = TakeAudit();
+		Audit -= Before;
+		const FRadianceAuditSums& Leaves = Audit.Leaves;
+		PrintFigure(fmt::format("leaves, cells with directions {}: followed / answered {:.4f}, standard error {:.4f}, {} paths; all {:.4f}",
+		    bDirection, Leaves.GetRatio(), Leaves.GetStandardError(), Leaves.Paths, Audit.GetAll().GetRatio()));
+		EXPECT_GT(Leaves.Paths, 5000.0);
+		EXPECT_LT(Leaves.GetStandardError(), 0.03);
+		// As surfaces that know their side, they had 0.885.
+		if (bDirection) { EXPECT_NEAR(Leaves.GetRatio(), 1.0, 0.045 + 2.0 * Leaves.GetStandardError()); }
+		else { EXPECT_GT(Leaves.GetRatio(), 1.07); }
+	}
 }
 
 } // namespace
