@@ -18,13 +18,14 @@ struct FCellAudit
 	// Of the thread.
 	uint Record;      // number of what it writes; NoAuditRecord: nothing
 	float Correction; // weight of what its paths find beyond the answer
-	FRadianceAuditPath Sum;
+	FRadianceAuditPath First; // what it writes: of its first path that had an answer
 	// Of the path.
+	float Weight;          // luminance of what the pixel takes of its side's light
 	uint Answer;           // RADIANCE_AUDIT_…; RADIANCE_AUDIT_NONE: there was none yet
 	vec3 Before, Answered; // what it had brought, and what the cell would have added
 };
 FCellAudit CellAudit =
-    FCellAudit(NoAuditRecord, 0.0, FRadianceAuditPath(RADIANCE_AUDIT_NONE, 0.0, 0.0), RADIANCE_AUDIT_NONE, vec3(0.0), vec3(0.0));
+    FCellAudit(NoAuditRecord, 0.0, FRadianceAuditPath(RADIANCE_AUDIT_NONE, 0.0, 0.0), 1.0, RADIANCE_AUDIT_NONE, vec3(0.0), vec3(0.0));
 
 // Returns the number of the block of threads that the thread stands for in this frame, or NoAuditRecord. Threads: of the launch.
 uint FindAuditRecord(FViewConstants View, uvec2 Thread, uvec2 Threads)
@@ -42,6 +43,7 @@ void BeginCellAudit(FAddress Grid, FViewConstants View, uvec2 Pixel, uvec2 Threa
 {
 	if (Grid == FAddress(0) || FRadianceGridRef(Grid).Data.Audit == FAddress(0)) { return; }
 	CellAudit.Record = FindAuditRecord(View, Thread, Threads);
+#ifndef SHARED_PATHS // which cannot be negative
 	float Chance = FRadianceGridRef(Grid).Data.FollowChance;
 	uint Hash = HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.FrameIndex + HashPcg(View.Seed ^ 0xc2b2ae35u))));
 	if (float(Hash >> 8u) * (1.0 / 16777216.0) >= Chance) { return; }
@@ -49,6 +51,7 @@ void BeginCellAudit(FAddress Grid, FViewConstants View, uvec2 Pixel, uvec2 Threa
 	Chance = 1.0;
 #endif
 	CellAudit.Correction = 1.0 / Chance;
+#endif
 }
 
 // Returns whether the path goes on, which had brought Before when a cell answered. Answered: weighted as the path is.
@@ -61,16 +64,18 @@ bool GoesOnBehindAnswer(vec3 Before, vec3 Answered)
 	return true;
 }
 
-// Returns what a path counts for that has found Radiance in all. Weight: luminance of what the pixel takes of it.
+// Returns what a path counts for that has found Radiance in all. Weight: luminance of what its side takes of it.
 vec3 SettleAnswer(vec3 Radiance, float Weight)
 {
 	uint Answer = CellAudit.Answer;
 	if (Answer == RADIANCE_AUDIT_NONE) { return Radiance; }
 	CellAudit.Answer = RADIANCE_AUDIT_NONE;
 	vec3 Followed = Radiance - CellAudit.Before;
-	CellAudit.Sum.Answer = Answer;
-	CellAudit.Sum.Answered += Weight * Luminance(CellAudit.Answered);
-	CellAudit.Sum.Followed += Weight * Luminance(Followed);
+	if (CellAudit.First.Answer == RADIANCE_AUDIT_NONE)
+	{
+		Weight *= CellAudit.Weight;
+		CellAudit.First = FRadianceAuditPath(Answer, Weight * Luminance(CellAudit.Answered), Weight * Luminance(Followed));
+	}
 	Radiance = CellAudit.Before + CellAudit.Answered;
 	return CellAudit.Correction > 0.0 ? Radiance + CellAudit.Correction * (Followed - CellAudit.Answered) : Radiance;
 }
@@ -78,7 +83,7 @@ vec3 SettleAnswer(vec3 Radiance, float Weight)
 void WriteCellAudit(FAddress Grid)
 {
 	if (CellAudit.Record == NoAuditRecord) { return; }
-	FRadianceAuditRef(FRadianceGridRef(Grid).Data.Audit).Data[CellAudit.Record] = CellAudit.Sum;
+	FRadianceAuditRef(FRadianceGridRef(Grid).Data.Audit).Data[CellAudit.Record] = CellAudit.First;
 }
 
 #endif

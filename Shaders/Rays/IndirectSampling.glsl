@@ -105,6 +105,9 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 		uint Index = View.FrameIndex * Samples + Sample;
 		FRandom Random = MakeRandom(Pixel, Index, StreamSeed);
 		FPathSide Side = ChoosePathSide(Point, Random);
+#ifdef AUDITS_CELLS
+		CellAudit.Weight = Luminance(Side.Weight);
+#endif
 		vec3 P = RasterRayOrigin(Scene, View, Side.Point);
 		mat3 Basis = MakeBasis(Side.Point.BentN);
 		vec3 V = Side.V * Basis;
@@ -119,7 +122,12 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 		CountEnd();
 #endif
 #ifdef GUIDED_PATHS
-		if (Sample == 0u) { PathRecord = RecordPath(Gathered, Side.Point.BentN); }
+#ifdef AUDITS_CELLS
+		bool bRecords = Sample == 0u && CellAudit.Correction == 0.0; // a correction is no light that comes from there
+#else
+		bool bRecords = Sample == 0u;
+#endif
+		if (bRecords) { PathRecord = RecordPath(Gathered, Side.Point.BentN); }
 #endif
 #ifdef SHARED_PATHS
 		// What others take over is theirs to light the pixel by.

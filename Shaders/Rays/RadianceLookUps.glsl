@@ -58,11 +58,12 @@ struct FSplitLight
 	vec3 From;   // its direction, local, above the surface; of length 0 if none is known
 };
 
+const float LeastCosine = 0.05; // of a direction that light has come from
+
 // LocalFrom: FCellLight::From. With n the normal, it is d D + (1 − d) 2/3 n, which has one solution for the share d and the direction D.
 FSplitLight SplitCellLight(vec3 LocalFrom)
 {
 	const float EvenMean = 2.0 / 3.0;  // of cosine-weighted directions, along the normal
-	const float LeastCosine = 0.05;    // of a direction that light has come from
 	vec3 Rest = LocalFrom - vec3(0.0, 0.0, EvenMean);
 	float Along = EvenMean * Rest.z, Factor = 1.0 - EvenMean * EvenMean;
 #ifdef NO_CELL_DIRECTION // r.RT.Debug.GI.CellDirection
@@ -170,6 +171,7 @@ vec3 ReflectLeafLight(FCellLight Light, FBrdf Brdf, float Roughness, vec3 LocalV
 	{
 		vec3 Diffuse, Specular;
 		Front.Alpha = max(Front.Alpha, LeastCellRoughness * LeastCellRoughness);
+		LocalFrom.z = max(LocalFrom.z, LeastCosine * Share);
 		EvaluateLobes(Front, LocalV, normalize(LocalFrom), Diffuse, Specular);
 		Reflected += Facing * Pi * Specular;
 	}

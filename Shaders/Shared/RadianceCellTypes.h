@@ -111,7 +111,7 @@ LANTERN_ASSERT_SIZE(FRadianceCellStatistics, 28);
 
 struct FRadianceAuditPath
 {
-	uint Answer;             // RADIANCE_AUDIT_…; NONE: no path of the thread has ended at a surface
+	uint Answer;             // RADIANCE_AUDIT_…; NONE: no look-up has answered, and no path was lost
 	float Answered, Followed; // luminance that the pixel takes of the answer, and of what the path has found in its place
 };
 LANTERN_ASSERT_SIZE(FRadianceAuditPath, 12);

@@ -208,6 +208,23 @@ TEST_F(FOutputTest, FileOfBeforeIsReplacedWhole)
 	EXPECT_EQ(ListFolder(Folder.GetPath()), std::vector<std::string>{"a.pfm"});
 }
 
+// In a furnace all light is the same, and cells know it.
+TEST_F(FOutputTest, AuditSaysThatCellsOfAFurnaceAreRight)
+{
+	const auto Audit = [&](const char* Route) {
+		return RunCleanly({"render", "furnace:0.5", "--size", "32x32", "--frames", "48", "--set", Route, "--set", "r.RT.GI.Residual=1",
+		    "--set", "r.RT.GI.Cells.UpdatesPerSecond=300000", "--validate", "--json", At("audit.json")});
+	};
+	EXPECT_THAT(Audit("r.RT.GI=3").Out, HasSubstr("followed paths have"));
+	const nlohmann::json Found = ReadJson(At("audit.json"))["radiance_audit"];
+	EXPECT_GT(Found["all"]["paths"].get<double>(), 5000.0);
+	EXPECT_NEAR(Found["all"]["ratio"].get<double>(), 1.0, 0.03) << "of the second half of the frames";
+	EXPECT_GT(Found["cells"]["paths"].get<double>(), 0.99 * Found["all"]["paths"].get<double>()) << "a few coarse ones stand in";
+	EXPECT_TRUE(Found["leaves"]["ratio"].is_null());
+	EXPECT_THAT(Audit("r.RT.GI=1").Err, HasSubstr("no path of r.RT.GI 3"));
+	EXPECT_FALSE(ReadJson(At("audit.json")).contains("radiance_audit"));
+}
+
 // In a furnace all light is the same: that of the radiance cell which the end of a path takes is that of the pixel.
 TEST_F(FOutputTest, ExplainedPixelHasTheLightOfItsRadianceCell)
 {

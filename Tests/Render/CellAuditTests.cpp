@@ -46,10 +46,17 @@ protected:
 TEST_F(FCellAuditTest, CorrectedCellsAreWithoutBias)
 {
 	REQUIRE_SCENE(Scene, "cornell/cornell.gltf");
-	SetVariable("r.RT.GI.Residual", "2");
-	SetVariable("r.RT.GI.Cells.SizeAngle", "1"); // many look-ups fail, and the others are wrong
+	SetVariable("r.RT.GI.Cells.SizeAngle", "1"); // many look-ups fail, others are wrong, and paths get lost
 	ASSERT_TRUE(Load(Scene));
-	ExpectUnbiased("corrected cells", ESignal::DiffuseGI, MakeView(48, 48), 192, 256, AllBounces, 0.005);
+	const FView View = MakeView(48, 48);
+	SetVariable("r.RT.GI.Denoise", "1"); // it does not count with corrections
+	SetVariable("r.RT.GI.Residual", "2");
+	ExpectUnbiased("corrected cells", ESignal::DiffuseGI, View, 192, 256, AllBounces, 0.005);
+	const double Corrected = MeanGreen(RenderSettled(View, 48));
+	SetVariable("r.RT.GI.Residual", "0");
+	const double Ratio = MeanGreen(RenderSettled(View, 48)) / Corrected;
+	PrintFigure(fmt::format("the same cells without correction: {:.4f} of it", Ratio));
+	EXPECT_LT(Ratio, 0.95) << "else there is nothing to correct";
 }
 
 // Without the chance, seven eighths of what cells lack stay missing.
@@ -65,7 +72,7 @@ TEST_F(FCellAuditTest, ChanceOfCorrectionCounts)
 	const double Cells = Measure("0", "1"), Corrected = Measure("2", "1"), Wrong = Measure("2", "0");
 	PrintFigure(fmt::format("wrong cells / reference {:.4f}, corrected {:.4f}, without the chance {:.4f}", Cells, Corrected, Wrong));
 	EXPECT_LT(Cells, 0.85);
-	EXPECT_NEAR(Corrected, 1.0, 0.02);
+	EXPECT_NEAR(Corrected, 1.0, 0.02); // for the noise of both pictures: without a correction, a sixth is missing
 	EXPECT_LT(Wrong, 0.9);
 }
 
@@ -73,12 +80,14 @@ TEST_F(FCellAuditTest, AuditSaysHowWrongCellsAre)
 {
 	LoadWall();
 	const double Reference = MeanGreen(TraceSignal(ESignal::DiffuseGI, WallView, 1024, AllBounces));
-	const FRadianceAudit Before = TakeAudit();
+	const uint32_t FramesBefore = TakeAudit().Frames;
 	const FImage Unaudited = RenderSettled(WallView, 64);
-	EXPECT_EQ(TakeAudit().Frames, Before.Frames) << "nothing is followed unless asked for";
+	EXPECT_EQ(TakeAudit().Frames, FramesBefore) << "nothing is followed unless asked for";
 	LoadWall();
 	SetVariable("r.RT.GI.Residual", "1");
-	const FImage Audited = RenderSettled(WallView, 64);
+	RenderSignal(ESignal::DiffuseGI, WallView, WarmFrames);
+	const FRadianceAudit Before = TakeAudit();
+	const FImage Audited = RenderSignal(ESignal::DiffuseGI, WallView, 64, WarmFrames);
 	// The second launch may round otherwise than the first.
 	EXPECT_EQ(FractionDiffering(Unaudited, Audited, 1.0e-3), 0.0) << "an audit does not change what it audits";
 	FRadianceAudit Audit = TakeAudit();
@@ -89,8 +98,9 @@ TEST_F(FCellAuditTest, AuditSaysHowWrongCellsAre)
 	    Ratio * All.GetRatio(), All.GetStandardError(), All.Paths));
 	EXPECT_LT(Ratio, 0.85);
 	EXPECT_LT(All.GetStandardError(), 0.03);
-	EXPECT_NEAR(Ratio * All.GetRatio(), 1.0, 0.02 + 3.0 * All.GetStandardError());
-	EXPECT_EQ(Audit.Frames, 64u + WarmFrames);
+	// The reference has noise as well.
+	EXPECT_NEAR(Ratio * All.GetRatio(), 1.0, 0.01 + 3.0 * All.GetStandardError());
+	EXPECT_EQ(Audit.Frames, 64u);
 	EXPECT_EQ(Audit.Leaves.Paths, 0.0);
 }
 

@@ -140,13 +140,21 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 
 nlohmann::json AuditToJson(const FRadianceAuditSums& Sums)
 {
-	return {{"paths", Sums.Paths}, {"answered", Sums.Answered}, {"followed", Sums.Followed}, {"ratio", Sums.GetRatio()},
-	    {"standard_error", Sums.GetStandardError()}};
+	nlohmann::json Json{{"paths", Sums.Paths}, {"answered", Sums.Answered}, {"followed", Sums.Followed}};
+	const bool bKnown = Sums.Paths >= 2.0 && Sums.Answered > 0.0;
+	Json["ratio"] = bKnown ? nlohmann::json(Sums.GetRatio()) : nlohmann::json(nullptr);
+	Json["standard_error"] = bKnown ? nlohmann::json(Sums.GetStandardError()) : nlohmann::json(nullptr);
+	return Json;
 }
 
 void ReportAudit(const FRadianceAudit& Audit, nlohmann::json& InOut)
 {
 	const FRadianceAuditSums All = Audit.GetAll();
+	if (All.Paths < 2.0)
+	{
+		LogWarning("r.RT.GI.Residual: {}", "no path of r.RT.GI 3 was followed");
+		return;
+	}
 	fmt::print("radiance cells: followed paths have {:.4f} of their light, standard error {:.4f}, {:.0f} paths\n", All.GetRatio(),
 	    All.GetStandardError(), All.Paths);
 	InOut["radiance_audit"] = {{"frames", Audit.Frames}, {"all", AuditToJson(All)}, {"cells", AuditToJson(Audit.Cells)},
@@ -235,11 +243,11 @@ public:
 	std::optional<bool> IsSettled() const { return Settled; }
 	const FSettling& GetSettling() const { return Settling; }
 	const FFigures& GetFigures() const { return Figures; }
-	/// Returns that of the second half of the frames: cells were new in the first.
+	/// Returns that of about the second half of the frames: cells were new in the first.
 	FRadianceAudit GetAudit() const
 	{
-		FRadianceAudit Audit = Session.GetEngine().GetRenderer().GetRadianceAudit();
-		return Audit -= EarlyAudit;
+		FRadianceAudit Audit = Audits.back();
+		return Audit -= Audits[Audits.size() / 2];
 	}
 	const FCapturedFrame& GetFrame() const { return Frame; }
 	const FImage& GetPicture() const { return Frame.Display.IsEmpty() ? Frame.Lighting : Frame.Display; }
@@ -267,8 +275,8 @@ private:
 		// The first frame of several builds and compiles: it is not what a frame costs. Timings are those of up to two frames before.
 		if (Done <= 3 && Done + 1 < Most) { Figures = {}; }
 		Figures.Add(GetTimings(Engine.GetRenderer()));
+		Audits.push_back(Engine.GetRenderer().GetRadianceAudit());
 		++Done;
-		if (Done == Most / 2) { EarlyAudit = Engine.GetRenderer().GetRadianceAudit(); }
 		return FRTStatus::Success();
 	}
 
@@ -280,7 +288,7 @@ private:
 	uint32_t Done = 0;
 	FCapturedFrame Frame; // the newest that is captured
 	FFigures Figures;
-	FRadianceAudit EarlyAudit; // of the first half of the frames
+	std::vector<FRadianceAudit> Audits{{}}; // of what had arrived behind each frame, and before the first
 	FSettling Settling;
 	std::optional<bool> Settled; // absent: nobody asked
 };

@@ -41,6 +41,10 @@ void AddAuditDefines(FShaderDefines& InOut)
 	if (GetResidual() == EResidual::Off) { return; }
 	InOut.emplace_back("AUDITS_CELLS", "1");
 	if (!IsResidualWeighted()) { InOut.emplace_back("WRONG_RESIDUAL", "1"); }
+	if (GetResidual() == EResidual::Corrected)
+	{
+		std::erase_if(InOut, [](const auto& Define) { return Define.first == NoCausticsDefine; });
+	}
 }
 
 /// Second: may be invalid.

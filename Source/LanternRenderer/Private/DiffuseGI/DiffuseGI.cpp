@@ -70,6 +70,9 @@ bool IsReused()
 	       GetResidual() != EResidual::Corrected;
 }
 
+/// The filter takes negative values for none, which would leave corrections too bright.
+bool IsFiltered() { return Denoise.IsEnabled() && GetResidual() != EResidual::Corrected; }
+
 EPixelRate GetTraceRate() { return static_cast<EPixelRate>(CVarRate.GetOnRenderThread()); }
 /// Rate of pixels that have a value of their own.
 EPixelRate GetValueRate() { return IsProbeRoute() || IsReused() ? EPixelRate::Full : GetTraceRate(); }
@@ -125,7 +128,7 @@ FDenoiseInputs MakeInputs(ESignal Signal, FGraphTexture Lobe, FGraphTexture Move
 FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBruteForceOutputs& Made)
 {
 	FLobes Lobes{Made.Lobe, Made.Second};
-	if (!Denoise.IsEnabled() || (!Lobes.Diffuse.IsValid() && !Lobes.Specular.IsValid())) { return Lobes; }
+	if (!IsFiltered() || (!Lobes.Diffuse.IsValid() && !Lobes.Specular.IsValid())) { return Lobes; }
 	const FDenoiseSettings Settings = GetFilter(Context);
 	const FGraphTexture Moved = AddMovedShare(Context, GBuffer, ELightFrom::Around);
 	const FDenoiseInputs Diffuse = MakeInputs(ESignal::DiffuseGI, Lobes.Diffuse, Moved, Made.bKnownNoise);
@@ -163,7 +166,7 @@ const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 	const bool bHalf = Path != ERayPath::None && IsHalfWanted() && AreHalfFrameShadersReady(Context, IsPair(Query));
 	FLobes Lobes = bHalf ? AddHalfLobes(Context, GBuffer, Path) : AddLobes(Context, GBuffer);
 	const bool bHorizon = !IsProbeRoute(); // probes make up for what lies below a surface
-	Lobes.Diffuse = AddToonGrade(Context, GBuffer, Lobes.Diffuse, bHorizon, Denoise.IsEnabled());
+	Lobes.Diffuse = AddToonGrade(Context, GBuffer, Lobes.Diffuse, bHorizon, IsFiltered());
 	Context.IndirectLobes = Lobes;
 	AddRadianceCellsView(Context, GBuffer);
 	AddExplainPass(Context, GBuffer);
@@ -189,11 +192,11 @@ ERayPath ChooseCachedLightPath(const FPassQuery& Query)
 	return BruteForce.EndsInRadianceCells() ? ChooseBruteForcePath(BruteForce, Query) : ERayPath::None;
 }
 
-bool IsDiffuseGIFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
+bool IsDiffuseGIFiltered(const FRTScene&) { return IsFiltered(); }
 
 void ListDiffuseGIFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out)
 {
-	if (!Denoise.IsEnabled()) { return; }
+	if (!IsFiltered()) { return; }
 	ListDenoiseShaders({.bColor = true, .bPair = IsPair(Query), .Rate = GetValueRate(), .bKnownNoise = IsReused()}, Denoise.Get(), Out);
 	ListMovedShareShaders(Out);
 }

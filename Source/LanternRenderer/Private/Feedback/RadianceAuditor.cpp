@@ -15,8 +15,8 @@ namespace
 {
 TRTConsoleVariable<int32_t> CVarResidual("r.RT.GI.Residual", 0,
     "Follows paths of r.RT.GI 3 although a radiance cell has answered. 0: none. 1: up to 4,096 in a frame, which say how wrong cells are "
-    "(lantern render --json). 2: those of one pixel in eight as well, and the difference corrects the picture. Its mean is then that of "
-    "whole paths, with much noise: for accumulated pictures without a filter. r.RT.GI.Reuse does not count with 2.",
+    "(lantern render --json). 2: those of one pixel in eight as well, and the difference corrects diffuse and rough specular light. Its "
+    "mean is then that of whole paths, with much noise: for whoever averages frames. There is no filter then, and no r.RT.GI.Reuse.",
     {0, 2});
 TRTConsoleVariable<bool> CVarChance("r.RT.Debug.GI.ResidualChance", true,
     "Planted fault. If off, what r.RT.GI.Residual 2 corrects does not count by the chance with which it is looked for.");

@@ -271,7 +271,7 @@ std::optional<FRayDispatch> FindUpdateDispatch(const FFrameContext& Context, ERa
 void AddRadianceCellDefines(FShaderDefines& InOut)
 {
 	InOut.emplace_back("RADIANCE_CELLS", "1");
-	if (!CVarCaustics.GetOnRenderThread()) { InOut.emplace_back("NO_CAUSTICS", "1"); }
+	if (!CVarCaustics.GetOnRenderThread()) { InOut.emplace_back(NoCausticsDefine, "1"); }
 	if (!CVarLayers.GetOnRenderThread()) { InOut.emplace_back("NO_LAYERS", "1"); }
 	if (!CVarDirection.GetOnRenderThread()) { InOut.emplace_back("NO_CELL_DIRECTION", "1"); }
 	if (!CVarLastMirror.GetOnRenderThread()) { InOut.emplace_back("NO_LAST_MIRROR", "1"); }

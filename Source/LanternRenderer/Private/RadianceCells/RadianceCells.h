@@ -30,6 +30,8 @@ struct FRadianceCells
 FPassRays ChooseRadianceCellRays(const FPassQuery& Query, ERayPath Path);
 /// Adds what shaders that look cells up are compiled with.
 void AddRadianceCellDefines(FShaderDefines& InOut);
+/// Mirrors throw no sun: see r.RT.GI.Caustics.
+constexpr const char* NoCausticsDefine = "NO_CAUSTICS";
 constexpr const char* RadianceCellShaders = "RadianceCells/Update";
 
 /// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells. Path: as in
