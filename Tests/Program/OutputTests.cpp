@@ -212,16 +212,21 @@ TEST_F(FOutputTest, FileOfBeforeIsReplacedWhole)
 TEST_F(FOutputTest, AuditSaysThatCellsOfAFurnaceAreRight)
 {
 	const auto Audit = [&](const char* Route) {
-		return RunCleanly({"render", "furnace:0.5", "--size", "32x32", "--frames", "48", "--set", Route, "--set", "r.RT.GI.Residual=1",
+		return RunProgram({"render", "furnace:0.5", "--size", "32x32", "--frames", "48", "--set", Route, "--set", "r.RT.GI.Residual=1",
 		    "--set", "r.RT.GI.Cells.UpdatesPerSecond=300000", "--validate", "--json", At("audit.json")});
 	};
-	EXPECT_THAT(Audit("r.RT.GI=3").Out, HasSubstr("followed paths have"));
+	const FProgramRun Run = Audit("r.RT.GI=3");
+	EXPECT_EQ(Run.Status, 0) << Run.Err;
+	EXPECT_THAT(Run.Err, Not(HasSubstr("warning")));
+	EXPECT_THAT(Run.Out, HasSubstr("followed paths have"));
 	const nlohmann::json Found = ReadJson(At("audit.json"))["radiance_audit"];
 	EXPECT_GT(Found["all"]["paths"].get<double>(), 5000.0);
 	EXPECT_NEAR(Found["all"]["ratio"].get<double>(), 1.0, 0.03) << "of the second half of the frames";
 	EXPECT_GT(Found["cells"]["paths"].get<double>(), 0.99 * Found["all"]["paths"].get<double>()) << "a few coarse ones stand in";
 	EXPECT_TRUE(Found["leaves"]["ratio"].is_null());
-	EXPECT_THAT(Audit("r.RT.GI=1").Err, HasSubstr("no path of r.RT.GI 3"));
+	const FProgramRun Other = Audit("r.RT.GI=1");
+	EXPECT_EQ(Other.Status, 0) << Other.Err;
+	EXPECT_THAT(Other.Err, HasSubstr("no path of r.RT.GI 3"));
 	EXPECT_FALSE(ReadJson(At("audit.json")).contains("radiance_audit"));
 }
 
