@@ -30,6 +30,23 @@ protected:
 		return RenderSignal(ESignal::DiffuseGI, View, Count, Warm);
 	}
 
+	/// A floor before a glossy wall, which the sun grazes. bDirection: cells know from where their light comes, else they are wrong by a sixth.
+	void LoadGlossyWall(bool bDirection)
+	{
+		FTestScene Scene("wall");
+		FHostMaterial Glossy;
+		Glossy.BaseColor = glm::vec4(0.1f, 0.1f, 0.1f, 1.0f);
+		Glossy.Metallic = 0.0f;
+		Glossy.Roughness = 0.6f;
+		const int32_t Wall = Scene.AddMaterial(Glossy), Floor = Scene.AddLambert(glm::vec3(0.5f));
+		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Floor, 4.0f), {Wall, {{-4, 0, -2}, {4, 0, -2}, {4, 6, -2}, {-4, 6, -2}}}}));
+		ASSERT_TRUE(Load(std::move(Scene.Scene)));
+		SetSun(0.53, 10.0f, {0.1, -1, -0.4});
+		SetVariable("r.RT.GI.Cells.Near", "0"); // rays to the wall's foot end in cells, too
+		SetVariable("r.RT.Debug.GI.CellDirection", bDirection ? "1" : "0");
+	}
+	static FView LookAtGlossyWall() { return LookAt({0, 1.5, 3}, {0, 0, -0.5}, 0.5f, 48, 27); }
+
 	/// Two runs from empty tables.
 	void ExpectTheSameBitsAgain(const std::string& Scene, const FView& View)
 	{

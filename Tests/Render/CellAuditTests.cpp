@@ -25,22 +25,7 @@ protected:
 		return GetEngine().GetRenderer().GetRadianceAudit();
 	}
 
-	/// A floor before a glossy wall, whose cells lack their directions, so that they are wrong by a sixth.
-	void LoadWall()
-	{
-		FTestScene Scene("wall");
-		FHostMaterial Glossy;
-		Glossy.BaseColor = glm::vec4(0.1f, 0.1f, 0.1f, 1.0f);
-		Glossy.Metallic = 0.0f;
-		Glossy.Roughness = 0.6f;
-		const int32_t Wall = Scene.AddMaterial(Glossy), Floor = Scene.AddLambert(glm::vec3(0.5f));
-		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Floor, 4.0f), {Wall, {{-4, 0, -2}, {4, 0, -2}, {4, 6, -2}, {-4, 6, -2}}}}));
-		ASSERT_TRUE(Load(std::move(Scene.Scene)));
-		SetSun(0.53, 10.0f, {0.1, -1, -0.4});
-		SetVariable("r.RT.GI.Cells.Near", "0");
-		SetVariable("r.RT.Debug.GI.CellDirection", "0");
-	}
-	const FView WallView = LookAt({0, 1.5, 3}, {0, 0, -0.5}, 0.5f, 48, 27);
+	const FView WallView = LookAtGlossyWall();
 };
 
 TEST_F(FCellAuditTest, CorrectedCellsAreWithoutBias)
@@ -62,7 +47,7 @@ TEST_F(FCellAuditTest, CorrectedCellsAreWithoutBias)
 // Without the chance, seven eighths of what cells lack stay missing.
 TEST_F(FCellAuditTest, ChanceOfCorrectionCounts)
 {
-	LoadWall();
+	LoadGlossyWall(false);
 	const double Reference = MeanGreen(TraceSignal(ESignal::DiffuseGI, WallView, 1024, AllBounces));
 	const auto Measure = [&](const char* Residual, const char* Chance) {
 		SetVariable("r.RT.GI.Residual", Residual);
@@ -78,12 +63,12 @@ TEST_F(FCellAuditTest, ChanceOfCorrectionCounts)
 
 TEST_F(FCellAuditTest, AuditSaysHowWrongCellsAre)
 {
-	LoadWall();
+	LoadGlossyWall(false);
 	const double Reference = MeanGreen(TraceSignal(ESignal::DiffuseGI, WallView, 1024, AllBounces));
 	const uint32_t FramesBefore = TakeAudit().Frames;
 	const FImage Unaudited = RenderSettled(WallView, 64);
 	EXPECT_EQ(TakeAudit().Frames, FramesBefore) << "nothing is followed unless asked for";
-	LoadWall();
+	LoadGlossyWall(false);
 	SetVariable("r.RT.GI.Residual", "1");
 	RenderSignal(ESignal::DiffuseGI, WallView, WarmFrames);
 	const FRadianceAudit Before = TakeAudit();

@@ -103,21 +103,11 @@ FSceneDescription MakeSealedRoom()
 // A wall that the sun grazes mirrors it down to the floor. The planted fault sends that light everywhere.
 TEST_F(FRadianceCellsTest, GlossyWallMirrorsTheSun)
 {
-	FTestScene Scene("wall");
-	FHostMaterial Glossy;
-	Glossy.BaseColor = glm::vec4(0.1f, 0.1f, 0.1f, 1.0f);
-	Glossy.Metallic = 0.0f;
-	Glossy.Roughness = 0.6f;
-	const int32_t Wall = Scene.AddMaterial(Glossy), Floor = Scene.AddLambert(glm::vec3(0.5f));
-	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Floor, 4.0f), {Wall, {{-4, 0, -2}, {4, 0, -2}, {4, 6, -2}, {-4, 6, -2}}}}));
 	for (const bool bDirection : {true, false})
 	{
-		ASSERT_TRUE(Load(FSceneDescription(Scene.Scene)));
-		SetSun(0.53, 10.0f, {0.1, -1, -0.4});
+		LoadGlossyWall(bDirection);
 		SetVariable("r.RT.GI.Samples", "16");
-		SetVariable("r.RT.GI.Cells.Near", "0"); // rays to the wall's foot end in cells, too
-		SetVariable("r.RT.Debug.GI.CellDirection", bDirection ? "1" : "0");
-		const FView View = LookAt({0, 1.5, 3}, {0, 0, -0.5}, 0.5f, 48, 27);
+		const FView View = LookAtGlossyWall();
 		const double Reference = MeanGreen(TraceSignal(ESignal::DiffuseGI, View, 1024, 4));
 		const double Ratio = MeanGreen(RenderSettled(View)) / Reference;
 		fmt::print("[  figure  ] floor before a glossy wall, cells with directions {}: mean / reference {:.4f}\n", bDirection, Ratio);

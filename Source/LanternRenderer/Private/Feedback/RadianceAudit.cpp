@@ -30,13 +30,7 @@ FRadianceAuditSums& FRadianceAuditSums::operator+=(const FRadianceAuditSums& Oth
 
 FRadianceAuditSums& FRadianceAuditSums::operator-=(const FRadianceAuditSums& Other)
 {
-	Paths -= Other.Paths;
-	Answered -= Other.Answered;
-	Followed -= Other.Followed;
-	AnsweredSquared -= Other.AnsweredSquared;
-	FollowedSquared -= Other.FollowedSquared;
-	Product -= Other.Product;
-	return *this;
+	return *this += {-Other.Paths, -Other.Answered, -Other.Followed, -Other.AnsweredSquared, -Other.FollowedSquared, -Other.Product};
 }
 
 double FRadianceAuditSums::GetRatio() const { return Answered > 0.0 ? Followed / Answered : 1.0; }

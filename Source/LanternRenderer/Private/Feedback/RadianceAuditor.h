@@ -11,7 +11,7 @@ enum class EResidual : uint8_t
 {
 	Off,
 	Audited,   ///< some paths are followed
-	Corrected, ///< and what they find corrects the picture
+	Corrected, ///< and what they find corrects diffuse and rough specular light
 };
 EResidual GetResidual(); ///< render thread
 /// Returns the chance with which a pixel follows its paths, to correct what cells answer.
