@@ -26,6 +26,14 @@ vec3 OctDecode(vec2 E)
 uint PackOct(vec3 V) { return packSnorm2x16(OctEncode(V)); }
 vec3 UnpackOct(uint P) { return OctDecode(unpackSnorm2x16(P)); }
 
+// 2 × snorm12, the lower 24 bits. Off by 0.03° at most.
+uint PackOct24(vec3 V)
+{
+	ivec2 E = ivec2(round(clamp(OctEncode(V), -1.0, 1.0) * 2047.0));
+	return uint(E.x & 0xfff) | (uint(E.y & 0xfff) << 12u);
+}
+vec3 UnpackOct24(uint P) { return OctDecode(vec2(bitfieldExtract(int(P), 0, 12), bitfieldExtract(int(P), 12, 12)) / 2047.0); }
+
 float Luminance(vec3 C) { return dot(C, vec3(0.2126, 0.7152, 0.0722)); }
 float MaxComponent(vec3 C) { return max(C.x, max(C.y, C.z)); }
 

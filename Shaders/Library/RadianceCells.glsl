@@ -14,6 +14,7 @@
 #include "../Shared/RadianceCellTypes.h"
 #include "Bindings.glsl"
 #include "Math.glsl"
+#include "RadianceChange.glsl"
 #include "Random.glsl"
 #include "Rgbe.glsl"
 
@@ -126,7 +127,7 @@ uint HashPlace(FRadianceGrid Grid, ivec3 Steps, uint Shift)
 // Returns what a cell's random numbers start from.
 uint RadianceSeed(FRadianceGrid Grid, FRadianceCell Cell)
 {
-	return HashPlace(Grid, Cell.Place, RADIANCE_SEED_SHIFT) ^ HashPcg((Cell.GeometricNormal & 0xc000c000u) | (Cell.State & RADIANCE_CELL_COARSE));
+	return HashPlace(Grid, Cell.Place, RADIANCE_SEED_SHIFT) ^ HashPcg((Cell.GeometricNormal & 0xc00c00u) | (Cell.State & RADIANCE_CELL_COARSE));
 }
 
 // Notes that a cell is in use. All threads of a pass write the same.
@@ -208,12 +209,14 @@ uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vo
 			uint Vote = MakeRadianceVote(Voter.Rank, Voter.Hash ^ HashPlace(Grid, Steps, VoteShift));
 			atomicMax(FRadianceCellRef(Grid.Cells).Data[Slot].Vote, Vote);
 			FRadianceVoteRef(Voter.Note).Data[0] =
-			    FRadianceVote(Slot, Vote, Steps, PackOct(Query.GeometricNormal), PackOct(Query.Normal));
+			    FRadianceVote(Slot, Vote, Steps, PackOct24(Query.GeometricNormal), PackOct24(Query.Normal));
 		}
 		return Slot;
 	}
 	return NO_RADIANCE_CELL;
 }
+
+float RadianceBefore = 1.0; // light a moment ago over that of now, of the thread's last look-up that has found one
 
 const uint LeastCoarseCount = 5u; // about ten updates: a coarse cell that knows less is seen as a blotch
 
@@ -223,6 +226,7 @@ bool IsRadianceKnown(FRadianceGrid Grid, uint Slot, uint LeastCount, inout FCell
 	FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[Slot];
 	if (RadianceCellCount(Cell.State) < LeastCount) { return false; }
 	Light = FCellLight(UnpackRgbe(Cell.Light), UnpackMeanDirection(Cell.From));
+	RadianceBefore = UnpackBefore(Cell.GeometricNormal);
 	return true;
 }
 

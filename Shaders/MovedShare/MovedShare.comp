@@ -7,12 +7,16 @@
 #include "../Library/Brdf.glsl"
 #include "../Library/GBuffer.glsl"
 #include "../Library/MovedCasters.glsl"
+#include "../Library/RadianceChange.glsl"
 #include "../Library/RadianceEvents.glsl"
+#include "../Shared/SharedPathTypes.h"
 #include "../LocalLights/TileBox.glsl"
 #include "../Tiles/Tile.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FMovedShareConstants Push; };
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FPathChangeRef { FPathChange Data[]; };
 
 const float LeastShare = 1.0e-3;
 const float LeastShareOfLobes = 1.0e-5; // these are up to a hundred times as narrow
@@ -90,6 +94,24 @@ void FindNear(FSceneConstants Scene, uint Place)
 	}
 }
 
+// Returns the share of the light that changes in a frame, by what the paths around have found in radiance cells: what is more than the noise
+// of cells.
+float GetShareOfPaths(FViewConstants View)
+{
+	const float Sigmas = 1.0;
+	ivec2 Last = (ivec2(View.Width, View.Height) - 1) / ivec2(TILE_SIZE);
+	FPathChange Sum = FPathChange(0.0, 0.0, 0.0);
+	for (int I = 0; I < 9; ++I)
+	{
+		ivec2 Tile = clamp(ivec2(gl_WorkGroupID.xy) + ivec2(I % 3, I / 3) - 1, ivec2(0), Last);
+		FPathChange Change = FPathChangeRef(Push.Changes).Data[TileIndex(View, uvec2(Tile))];
+		Sum = FPathChange(Sum.Light + Change.Light, Sum.Gone + Change.Gone, Sum.Squares + Change.Squares);
+	}
+	float Certain = abs(Sum.Gone) - Sigmas * sqrt(Sum.Squares);
+	if (!(Certain > 0.0)) { return 0.0; }
+	return min(1.0 / GetFramesOfChange(Certain / max(Sum.Light, Sum.Light + Sum.Gone), ChangeInPixels, Push.Moment), 1.0);
+}
+
 vec2 GetShare(FSceneConstants Scene, FMovedCaster Mover, FLitSurface Lit)
 {
 	vec2 Share = GetMovedShare(Mover, Lit.P, Lit.Normal);
@@ -118,6 +140,7 @@ void main()
 	barrier();
 	if (IsOutsideView(View, uvec2(Pixel))) { return; }
 	vec2 Moved = vec2(0.0, Lit.bFound ? GetLampChange(Push.Lamps, Push.LampCount, Lit.P) : 0.0);
+	if (Push.Changes != FAddress(0)) { Moved.x = GetShareOfPaths(View); }
 	for (uint Word = 0u; Word < SETTLED_MOST_CASTERS / 32u && Lit.bFound; ++Word)
 	{
 		for (uint Bits = Near[Word]; Bits != 0u; Bits &= Bits - 1u)

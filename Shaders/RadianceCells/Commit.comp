@@ -4,7 +4,11 @@
 #include "../Library/MovedShare.glsl"
 #include "../Library/RadianceEvents.glsl"
 
-const float LeastWindow = 4.0; // updates
+const float LeastWindow = 4.0;    // updates
+const float LeastOfTrend = 2.0;   // updates
+const float NoiseOfTrend = 0.1;   // which a trend has without a change
+const float TrendUpdates = 4.0;   // over which the trend of a cell's light is averaged
+const float LeastLeft = 1.0 / 16; // of a cell's light, with one update: who looks it up learns by what is left how much has gone
 
 // What a cell may average over, by what has changed around it.
 struct FWindow
@@ -17,14 +21,50 @@ struct FWindow
 FWindow GetWindow(FRadianceGrid Grid, FRadianceCell Cell, vec3 Light)
 {
 	FWindow Window = FWindow(Grid.Window, LeastWindow);
-	vec3 P = FromRadianceSteps(Grid, Cell.Place), Normal = UnpackOct(Cell.Normal);
+	vec3 P = FromRadianceSteps(Grid, Cell.Place), Normal = UnpackOct24(Cell.Normal);
 	vec2 Moved = vec2(0.0, GetLampChange(Grid.Events, Grid.EventCount, P));
 	for (uint I = 0u; I < Grid.MoverCount; ++I) { Moved += GetMovedShare(FMovedCasterRef(Grid.Movers).Data[I], P, Normal); }
 	float Brightness = max(Luminance(UnpackRgbe(Cell.Light)), Luminance(Light));
 	float Share = Moved.x + min(Moved.y / max(Brightness, 1.0e-20), 1.0);
 	// What changes by so much in a frame may be averaged over as many as make the whole, and be it one update.
 	if (Window.Frames * Share > 1.0) { Window = FWindow(1.0 / Share, 1.0); }
+	if (Grid.Moment > 0.0)
+	{
+		// The trend before this update: light that chose its own weight would count too much.
+		float Trend = max(abs(UnpackTrend(Cell.Normal)) - NoiseOfTrend, 0.0);
+		float Frames = GetFramesOfChange(Trend, ChangeInCells, Grid.Moment);
+		if (Frames < Window.Frames) { Window = FWindow(Frames, LeastOfTrend); }
+	}
 	return Window;
+}
+
+struct FChange
+{
+	float Before, Now; // luminance of the cell's light
+	float Found, Gone; // luminance of the update's light, and by how much it was more a moment ago
+	float Waited;      // frames since the update before
+	uint Known;        // updates before this one, see RadianceCellCount
+};
+
+// Keeps what the cell remembers of its light a moment ago, and how the light of the cells around changes its own.
+void NoteChange(FRadianceGrid Grid, uint Slot, FChange Change, vec4 U)
+{
+	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
+	uint Geometric = Cells.Data[Slot].GeometricNormal, Shading = Cells.Data[Slot].Normal;
+	// What changes has a low count as well, but knows what it was.
+	bool bYoung = Change.Known == 0u || (!KnowsBefore(Geometric) && float(Change.Known) < LeastWindow);
+	float Ratio = 1.0, Trend = 0.0;
+	if (Grid.Moment > 0.0 && !bYoung && Change.Now > 0.0)
+	{
+		float Then = mix(Change.Before * UnpackBefore(Geometric), Change.Now, 1.0 - exp(-Change.Waited / Grid.Moment));
+		Ratio = Then / Change.Now;
+		Trend = UnpackTrend(Shading);
+		// A bright path counts no more than a usual one: the next ones would else replace bright means sooner than dark ones.
+		float Whole = max(max(Change.Found, Change.Found + Change.Gone), Change.Before);
+		Trend += (-Change.Gone / max(Whole, 1.0e-20) - Trend) / TrendUpdates;
+	}
+	Cells.Data[Slot].GeometricNormal = (Geometric & NormalMask) | (bYoung ? 0u : PackBefore(Ratio, U.w));
+	Cells.Data[Slot].Normal = (Shading & NormalMask) | PackTrend(Trend, U.x);
 }
 
 void main()
@@ -47,12 +87,14 @@ void main()
 	// The first updates know too little of what comes by many surfaces. A cell averages over this part of its age.
 	bool bGrows = float(Known) < LeastWindow || U.w * 6.0 < 1.0;
 	uint Count = clamp(Known + (bGrows ? 1u : 0u), 1u, Most);
-	vec3 Mean = UnpackRgbe(Cell.Light);
-	vec3 Moment = UnpackMeanDirection(Cell.From) * Luminance(Mean);
+	vec3 Before = UnpackRgbe(Cell.Light), Mean = Before;
+	vec3 Moment = UnpackMeanDirection(Cell.From) * Luminance(Before);
 	Mean += (Result.Light - Mean) / float(Count);
+	if (Grid.Moment > 0.0) { Mean = max(Mean, Before * LeastLeft); }
 	Moment += (Result.Moment - Moment) / float(Count);
 	Cells.Data[Slot].Light = PackRgbe(max(Mean, vec3(0.0)), U.xyz);
 	float Sum = Luminance(Mean);
+	NoteChange(Grid, Slot, FChange(Luminance(Before), Sum, Luminance(Result.Light), Result.Gone, Waited, Known), U);
 	Cells.Data[Slot].From = PackMeanDirection(Sum > 0.0 ? Moment / Sum : vec3(0.0), U.yzx);
 	const uint Kept = ~((1u << RADIANCE_CELL_ASKED_SHIFT) - 1u) | RADIANCE_CELL_COARSE;
 	Cells.Data[Slot].State = Count | (Grid.Turn << RADIANCE_CELL_UPDATED_SHIFT) | (Cell.State & Kept);

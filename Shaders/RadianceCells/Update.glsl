@@ -24,17 +24,18 @@ void AddLight(inout FRadianceResult Result, vec3 Light, vec3 Direction)
 // Samples all light: what Gather leaves to the lighting pass is added.
 FRadianceResult SampleCell(FSceneConstants Scene, FRadianceGrid Grid, FRadianceCell Cell, inout FRandom Random)
 {
-	vec3 Ng = UnpackOct(Cell.GeometricNormal);
+	vec3 Ng = UnpackOct24(Cell.GeometricNormal);
 	// Places are kept to half a step.
 	vec3 P = FromRadianceSteps(Grid, Cell.Place) + Ng * (1.0 / LIGHT_POSITION_STEPS);
 	P = OffsetRayOrigin(P, Ng, Scene.ObjectReach, 0.0);
 	FBrdf White = MakeWhiteLambert();
-	mat3 Basis = MakeBasis(BendNormal(UnpackOct(Cell.Normal), Ng));
+	mat3 Basis = MakeBasis(BendNormal(UnpackOct24(Cell.Normal), Ng));
 	vec3 V = Ng * Basis;
 	vec4 U0 = NextRandom4(Random), U1 = NextRandom4(Random);
-	FRadianceResult Result = FRadianceResult(vec3(0.0), vec3(0.0));
+	FRadianceResult Result = FRadianceResult(vec3(0.0), vec3(0.0), 0.0);
 	FGathered Gathered = Gather(Scene, White, Basis, V, P, Ng, U0.xy, Push.MaxBounces, Random);
 	AddLight(Result, Gathered.Light, Gathered.Direction);
+	Result.Gone = Luminance(Gathered.Light) * Gathered.Gone;
 	AddLight(Result, Gathered.Emission, Gathered.EmissionDirection);
 #ifdef HAS_SUN
 	AddLight(Result, SampleSun(Scene, White, Basis, V, P, Ng, false, U0.zw), -Scene.SunDirection);

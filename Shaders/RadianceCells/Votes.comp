@@ -14,6 +14,6 @@ void main()
 	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 	if (Cells.Data[Vote.Slot].Vote != Vote.Vote) { return; }
 	Cells.Data[Vote.Slot].Place = Vote.Place;
-	Cells.Data[Vote.Slot].GeometricNormal = Vote.GeometricNormal;
-	Cells.Data[Vote.Slot].Normal = Vote.Normal;
+	Cells.Data[Vote.Slot].GeometricNormal = Vote.GeometricNormal | (Cells.Data[Vote.Slot].GeometricNormal & ~NormalMask);
+	Cells.Data[Vote.Slot].Normal = Vote.Normal | (Cells.Data[Vote.Slot].Normal & ~NormalMask);
 }

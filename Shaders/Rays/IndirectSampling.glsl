@@ -131,7 +131,12 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 #endif
 #ifdef SHARED_PATHS
 		// What others take over is theirs to light the pixel by.
-		if (OfferPath(P - View.CameraPosition, Gathered.Direction, Gathered.Distance, Gathered.Radiance, Gathered.Share))
+#ifdef RADIANCE_CELLS
+		float Gone = Gathered.Gone;
+#else
+		const float Gone = 0.0;
+#endif
+		if (OfferPath(P - View.CameraPosition, Gathered.Direction, Gathered.Distance, Gathered.Radiance, Gathered.Share, Gone))
 		{
 			Gathered.Light = vec3(0.0);
 		}

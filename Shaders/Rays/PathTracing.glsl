@@ -205,6 +205,8 @@ bool EndsAtAnswer(vec3 Answered, inout vec3 Radiance, inout uint MaxBounces)
 #endif
 
 #ifdef RADIANCE_CELLS
+float LightGone = 0.0; // luminance by which what a gathered path has found in cells was more a moment ago
+
 // Adds what a radiance cell knows of the light at a hit, or weighs the path for what it has not found, and returns whether the path ends.
 // bLooksUp: also before its last hit.
 bool EndsInCells(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, uint Bounce, inout uint MaxBounces, bool bLooksUp,
@@ -219,6 +221,7 @@ bool EndsInCells(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, 
 	if ((bLast || bLooksUp) && LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, bLast, ChooseLevel(Random), Known))
 	{
 		NOTE_END(bLast && IsMirror(Brdf) ? PATH_END_STAND_IN : PATH_END_CELL);
+		LightGone += Luminance(Throughput * Known) * (RadianceBefore - 1.0);
 #ifdef AUDITS_CELLS
 		return EndsAtAnswer(Throughput * Known, Radiance, MaxBounces);
 #else
@@ -352,6 +355,9 @@ struct FGathered
 {
 	vec3 Light, Direction;            // of the path
 	vec3 Emission, EmissionDirection; // of a triangle that light sampling has found; zero if there is none
+#ifdef RADIANCE_CELLS
+	float Gone; // part of itself by which Light was more a moment ago, see RadianceChange.glsl
+#endif
 #ifdef SHARED_PATHS
 	vec3 Radiance;         // along Direction: Light is Share times it
 	float Share, Distance; // Distance: to what the path met; below 0: the sky
@@ -369,6 +375,9 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	FGathered Gathered;
 	Gathered.Light = Gathered.Emission = vec3(0.0);
 	Gathered.Direction = Gathered.EmissionDirection = Ng;
+#ifdef RADIANCE_CELLS
+	LightGone = Gathered.Gone = 0.0;
+#endif
 #ifdef SHARED_PATHS
 	Gathered.Radiance = vec3(0.0);
 	Gathered.Share = 0.0;
@@ -445,6 +454,9 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 #endif
 	}
 	Gathered.Light = Sample.Weight * Radiance;
+#ifdef RADIANCE_CELLS
+	Gathered.Gone = Luminance(Radiance) > 0.0 ? LightGone / Luminance(Radiance) : 0.0;
+#endif
 #ifdef SHARED_PATHS
 	Gathered.Radiance = Radiance;
 #endif

@@ -14,11 +14,13 @@ struct FMovedShareConstants
 	uint Depth, Normals; // sampled indices
 	uint Output;         // storage index; x: share of the light, y: radiance
 	uint LampCount;      // at most RADIANCE_CELL_MOST_EVENTS
+	float Moment;        // see FRadianceGrid, with Changes
 	FAddress Lamps;      // FRadianceEvent[LampCount]
+	FAddress Changes;    // FPathChange[tiles] of the paths that brought the light; 0: nobody knows by how much it has changed of late
 	uint Material;       // sampled index: the light of specular lobes is asked for. NO_TEXTURE: that from all around
 	uint Shown;          // sampled index, with Material: FDenoiseInputs::Surface of what mirrors show
 };
-LANTERN_ASSERT_SIZE(FMovedShareConstants, 64);
+LANTERN_ASSERT_SIZE(FMovedShareConstants, 72);
 
 LANTERN_SHARED_END
 

@@ -35,7 +35,8 @@ struct FRadianceCell
 	uint State; // RADIANCE_CELL_…
 	uint Vote;  // the greatest of this frame's look-ups (MakeRadianceVote); 0: nobody voted
 	ivec3 Place; // where rays of updates start, in steps of the light grid (LIGHT_POSITION_STEPS), modulo 2^32
-	uint GeometricNormal, Normal; // there, octahedral
+	uint GeometricNormal; // there: by PackOct24, and PackBefore's bits
+	uint Normal;          // there: by PackOct24, and PackTrend's bits
 	uint Light; // mean of irradiance / π, by PackRgbe
 	uint From;  // mean direction that it comes from, each weighted by its luminance, by PackMeanDirection; its length says how alike they are
 };
@@ -46,8 +47,9 @@ struct FRadianceResult
 {
 	vec3 Light;  // irradiance / π
 	vec3 Moment; // the sum of its parts' luminance times their direction
+	float Gone;  // luminance by which what comes by cells was more a moment ago
 };
-LANTERN_ASSERT_SIZE(FRadianceResult, 24);
+LANTERN_ASSERT_SIZE(FRadianceResult, 28);
 
 // A look-up that voted. The one whose vote wins gives the cell its place.
 struct FRadianceVote
@@ -55,7 +57,7 @@ struct FRadianceVote
 	uint Slot; // NO_RADIANCE_CELL: there was no look-up
 	uint Vote;
 	ivec3 Place;
-	uint GeometricNormal, Normal;
+	uint GeometricNormal, Normal; // by PackOct24
 };
 LANTERN_ASSERT_SIZE(FRadianceVote, 28);
 
@@ -147,7 +149,7 @@ struct FRadianceGrid
 	float NearCells;      // rays of pixels that are shorter than so many cells of their place are followed, and end in none
 	FAddress Audit;       // FRadianceAuditPath[RADIANCE_AUDIT_PATHS], zero before; 0: no path is followed for it
 	float FollowChance;   // with which a pixel's paths are followed to correct what cells answer, with Audit
-	uint Pad;
+	float Moment;         // frames by which what a cell remembers of its light lags behind it; 0: nothing has changed for long
 };
 LANTERN_ASSERT_SIZE(FRadianceGrid, 176);
 

@@ -17,6 +17,7 @@
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FSharedPathConstants Push; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FSharedPathRef { FSharedPath Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FPathChangeRef { FPathChange Data[]; };
 
 #if defined(QUARTER)
 const ivec2 Pitch = ivec2(2, 2); // pixels from one site to the next
@@ -39,6 +40,7 @@ shared uint SiteNormals[Sites]; // shading, octahedral
 shared uint SiteFaces[Sites];   // geometric, octahedral; NoNormal: the site shows no surface
 shared uint SitePixels[Sites];  // SphereBit | y << 16 | x
 shared FSharedPath SitePaths[Sites];
+shared vec3 Changes[TILE_PIXELS]; // FPathChange of sites, and sums of them
 #ifdef BACK_PIXELS
 shared float SiteBacks[Sites]; // chance that a path leaves the back
 
@@ -78,6 +80,32 @@ void LoadSites(FViewConstants View)
 		SiteBacks[I] = Point.bBack && Push.BackAlbedo != NO_TEXTURE ? BackChance(LoadSides(ivec2(Pixel))) : 0.0;
 #endif
 		SitePaths[I] = FSharedPathRef(Push.Shared).Data[Thread.y * Threads.x + Thread.x];
+	}
+}
+
+vec3 GetSiteChange(int Site)
+{
+	if (SiteFaces[Site] == NoNormal) { return vec3(0.0); }
+	FSharedPath Path = SitePaths[Site];
+	float Light = Path.Share > 0.0 ? Luminance(UnpackRgbe(Path.Radiance)) * Path.Share : Luminance(UnpackRgbe(Path.Near));
+	float Gone = Light * unpackHalf2x16(Path.SkyAndGone).y;
+	return vec3(Light, Gone, Gone * Gone);
+}
+
+// Sums the changes of the tile's own paths, in one order whatever that of threads.
+void SumChanges(FViewConstants View)
+{
+	uint Lane = gl_LocalInvocationIndex;
+	ivec2 Own = ivec2(TILE_SIZE) / Pitch, Place = ivec2(int(Lane) % Own.x, int(Lane) / Own.x) + 1;
+	Changes[Lane] = int(Lane) < Own.x * Own.y ? GetSiteChange(Place.y * Side.x + Place.x) : vec3(0.0);
+	for (uint Half = TILE_PIXELS / 2u; Half > 0u; Half /= 2u)
+	{
+		barrier();
+		if (Lane < Half) { Changes[Lane] += Changes[Lane + Half]; }
+	}
+	if (Lane == 0u)
+	{
+		FPathChangeRef(Push.Changes).Data[TileIndex(View, gl_WorkGroupID.xy)] = FPathChange(Changes[0].x, Changes[0].y, Changes[0].z);
 	}
 }
 
@@ -307,7 +335,7 @@ void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffus
 		float Weight = Found.Weights[I];
 		if (Weight <= 0.0) { continue; }
 		FSharedPath Path = SitePaths[Found.Numbers[I]];
-		vec3 Direction = Path.bSky != 0u ? Path.Hit : normalize(Path.Hit - Point.Relative);
+		vec3 Direction = (Path.SkyAndGone & 1u) != 0u ? Path.Hit : normalize(Path.Hit - Point.Relative);
 		vec3 Light = UnpackRgbe(Path.Radiance) * Weight;
 		float Front;
 		vec3 Gain = GetGain(Found, Receiver, Direction, Front);
@@ -326,6 +354,7 @@ void main()
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	LoadSites(View);
 	barrier();
+	if (Push.Changes != FAddress(0)) { SumChanges(View); }
 	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
 	if (IsOutsideView(View, uvec2(Pixel))) { return; }
 	FSum Diffuse = FSum(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0), Specular = Diffuse;

@@ -314,13 +314,14 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 	AddPathsPass(Settings, Context, GBuffer, Paths, false);
 	if (Second) { AddDeferredPasses(Settings, Context, GBuffer, Paths); }
 	if (Paths.Guide.IsValid()) { AddPathGuideUpdate(Context, GBuffer, Paths.Guide); }
-	if (Paths.Shared.IsValid()) { AddPathResolve(Context, GBuffer, Paths.Shared, Paths.Output, Paths.SecondOutput); }
+	FGraphBuffer Changes;
+	if (Paths.Shared.IsValid()) { Changes = AddPathResolve(Context, GBuffer, Paths.Shared, Paths.Output, Paths.SecondOutput); }
 	if (Paths.Probes.IsValid()) { AddScreenProbeGather(Context, GBuffer, Paths.Probes, Paths.Output, Paths.SecondOutput); }
 	if (Fill)
 	{
 		AddFillPass(Context, GBuffer, std::string(GetSignalInfo(Settings.Signal).Pass) + "Fill", Paths.Output, Paths.SecondOutput, Fill);
 	}
-	return {Paths.Output, Paths.SecondOutput, Paths.Shared.IsValid()};
+	return {Paths.Output, Paths.SecondOutput, Paths.Shared.IsValid(), Changes};
 }
 
 } // namespace Lantern

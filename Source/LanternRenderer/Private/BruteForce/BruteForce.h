@@ -48,6 +48,7 @@ struct FBruteForceOutputs
 	FGraphTexture Lobe;       ///< of FBruteForcePass::Signal
 	FGraphTexture Second;     ///< of FBruteForcePass::Second, over the albedo of that lobe
 	bool bKnownNoise = false; ///< of either, see FDenoiseInputs
+	FGraphBuffer Changes;     ///< see AddPathResolve
 };
 /// Reads Depth and Normals of the G-buffer, and BaseColor and Material if FSignalInfo::bNeedsSurface of either signal says so.
 FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer);

@@ -130,7 +130,7 @@ FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBrute
 	FLobes Lobes{Made.Lobe, Made.Second};
 	if (!IsFiltered() || (!Lobes.Diffuse.IsValid() && !Lobes.Specular.IsValid())) { return Lobes; }
 	const FDenoiseSettings Settings = GetFilter(Context);
-	const FGraphTexture Moved = AddMovedShare(Context, GBuffer, ELightFrom::Around);
+	const FGraphTexture Moved = AddMovedShare(Context, GBuffer, ELightFrom::Around, {}, Made.Changes);
 	const FDenoiseInputs Diffuse = MakeInputs(ESignal::DiffuseGI, Lobes.Diffuse, Moved, Made.bKnownNoise);
 	const FDenoiseInputs Specular = MakeInputs(ESignal::RoughSpecular, Lobes.Specular, Moved, Made.bKnownNoise);
 	const bool bDiffuse = Lobes.Diffuse.IsValid() && IsMade(ESignal::DiffuseGI, Context.Signals);

@@ -18,6 +18,8 @@ enum class ELightFrom : uint8_t
 /// Returns FDenoiseInputs::ChangedShare. Invalid: nothing has moved, so much has that no place is more touched than others, shaders are
 /// being compiled, or an error, which the context has.
 /// Shown: with SpecularLobe, FDenoiseInputs::Surface that has what mirrors show in place of their own surface.
-FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer, ELightFrom From, FGraphTexture Shown = {});
+/// Changes: FPathChange of the tiles of the light's paths; invalid: nobody knows.
+FGraphTexture AddMovedShare(
+    FFrameContext& Context, const FGBuffer& GBuffer, ELightFrom From, FGraphTexture Shown = {}, FGraphBuffer Changes = {});
 
 } // namespace Lantern

@@ -45,7 +45,12 @@ TRTConsoleVariable<bool> CVarAskedFirst("r.RT.Debug.GI.AskedFirst", true,
 TRTConsoleVariable<bool> CVarLayers("r.RT.Debug.GI.Layers", true,
     "Planted fault. Off: radiance cells are as thick as wide and have no side, so that light leaks through walls.");
 
+TRTConsoleVariable<bool> CVarChange("r.RT.GI.Cells.Change", true,
+    "Radiance cells pass on that their light changes, to cells and pixels that look them up, while the scene changes and two seconds "
+    "after.");
+
 constexpr float LifeSeconds = 2.0f;
+constexpr float PartInMoment = 0.25f;                                 // of the time that a cell averages over, see FRadianceGrid::Moment
 constexpr float RestChance = 0.5f;                                    // once cells are there
 constexpr float AgesInWindow = 6.0f;                                  // a new table averages over this part of its age
 constexpr float MostUpdatesInWindow = 16.0f;                          // of a cell, if nothing changes
@@ -120,7 +125,21 @@ void SetPace(FRadianceGrid& Grid, bool bHurry, float DeltaSeconds)
 	const float Turns = std::max(bHurry ? static_cast<float>(FRadianceEvents::HoldSeconds) / DeltaSeconds : 0.0f, AskedTurns);
 	Grid.AskedTurns =
 	    CVarAskedFirst.GetOnRenderThread() ? static_cast<uint32_t>(std::min(Turns, static_cast<float>(Grid.Life))) : Grid.Life;
-	Grid.LeastWait = bHurry ? 1u : std::max(static_cast<uint32_t>(Grid.Window / MostUpdatesInWindow), 1u);
+	Grid.LeastWait = bHurry || Grid.Moment > 0.0f ? 1u : std::max(static_cast<uint32_t>(Grid.Window / MostUpdatesInWindow), 1u);
+}
+
+/// Says what has moved, and whether cells pass on what changes. A young table holds nothing that is out of date.
+void SetChanges(FFrameContext& Context, const FRadianceEvents::FFound& Events, uint32_t Age, FRadianceGrid& Grid)
+{
+	if (!AreIndirectChangesTold()) { return; }
+	const FMoversOfFrame& Movers = RequireMovers(Context);
+	Grid.Movers = Movers.Casters;
+	Grid.MoverCount = Movers.Count;
+	const float Delta = std::max(Context.View.DeltaSeconds, 1.0e-3f);
+	const bool bOld = static_cast<float>(Age) * Delta >= static_cast<float>(FRadianceEvents::HoldSeconds);
+	const bool bChanges = bOld && (Movers.Count > 0 || !Events.Lamps.empty() || Events.Window < 1.0e9f);
+	const bool bLately = Context.RadianceEvents->HasChangedLately(bChanges);
+	Grid.Moment = bLately && CVarChange.GetOnRenderThread() ? PartInMoment * CVarSeconds.GetOnRenderThread() / Delta : 0.0f;
 }
 
 std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
@@ -153,17 +172,12 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 		else { LogOnce(ERTLogLevel::Warning, std::string("radiance cells are off, and paths are followed: ") + Status.Message); }
 		return nullptr;
 	}
-	if (AreIndirectChangesTold())
-	{
-		const FMoversOfFrame& Movers = RequireMovers(Context);
-		Cells->Grid.Movers = Movers.Casters;
-		Cells->Grid.MoverCount = Movers.Count;
-	}
 	Cells->Table = History.Buffer;
 	Cells->Grid.Statistics = Context.RadianceCellStatistics;
 	Cells->Grid.Audit = Context.RadianceAudit;
 	Cells->Grid.FollowChance = GetFollowChance();
 	const uint32_t Age = Context.RadianceEvents->CountFrames(History.bFresh);
+	SetChanges(Context, Events, Age, Cells->Grid);
 	Cells->Grid.Turn = Age & RADIANCE_CELL_TURN_MASK;
 	Cells->Grid.RestChance = Age < FramesWithoutCells ? 1.0f : RestChance;
 	// What the first frames know lacks further bounces, and must not be averaged for long.

@@ -33,11 +33,18 @@ public:
 	FFound Find(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds, double SkyChange);
 	/// Counts the frames of a table of cells. bFresh: it begins anew. Returns those before this one.
 	uint32_t CountFrames(bool bFresh) { return Frames = bFresh ? 0 : Frames + 1; }
+	/// Returns whether anything has changed within LivelySeconds. bNow: something has changed in this frame, or did so of late.
+	bool HasChangedLately(bool bNow)
+	{
+		if (bNow) { ChangedAt = Time; }
+		return Time - ChangedAt < LivelySeconds;
+	}
 	/// bSubmitted: false if the frame never runs; the next one then finds its changes again.
 	void EndFrame(bool bSubmitted);
 
-	static constexpr double HoldSeconds = 0.25; ///< cells and filters take some frames to follow
-	static constexpr uint32_t LeastWindow = 4;  ///< frames
+	static constexpr double HoldSeconds = 0.25;  ///< cells and filters take some frames to follow
+	static constexpr uint32_t LeastWindow = 4;   ///< frames
+	static constexpr double LivelySeconds = 2.0; ///< light goes from cell to cell for so long after a change
 
 private:
 	struct FLight
@@ -72,6 +79,7 @@ private:
 	std::vector<FEvent> Kept, Fresh; ///< of frames before, and of this one
 	FLampEvents KeptLamps, FreshLamps;
 	double Time = 0.0; ///< of the view's submitted frames, seconds
+	double ChangedAt = -LivelySeconds;
 	double Delta = 0.0;
 	uint32_t Frames = 0;
 };

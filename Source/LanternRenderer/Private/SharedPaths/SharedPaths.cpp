@@ -2,6 +2,7 @@
 #include "SharedPaths/SharedPaths.h"
 
 #include "LobePixels.h"
+#include "RadianceCells/RadianceCells.h"
 #include "SharedPathTypes.h"
 #include "TileTypes.h"
 
@@ -49,13 +50,22 @@ float GetNearPixels(const FFrameContext& Context)
 	return Context.bHalf ? 0.5f * Near : Near;
 }
 
-void AddPathResolve(FFrameContext& Context, const FGBuffer& GBuffer, const FSharedPaths& Shared, FGraphTexture Output, FGraphTexture Second)
+FGraphBuffer AddPathResolve(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FSharedPaths& Shared, FGraphTexture Output, FGraphTexture Second)
 {
 	const FFrameContext* const Frame = &Context;
 	const FGraphTexture Toon = Context.Toon.Pixels;
+	const FRadianceCells* const Cells = Context.World->RadianceCells.get();
+	FGraphBuffer Changes;
+	if (Cells && Cells->Grid.Moment > 0.0f)
+	{
+		const uint64_t Tiles = uint64_t(DivideUp(Context.Width, TILE_SIZE)) * DivideUp(Context.Height, TILE_SIZE);
+		Changes = Context.Graph.CreateBuffer({Tiles * sizeof(FPathChange)}, "PathChanges");
+	}
 	Context.Graph.AddPass("PathResolve", [&](FPassBuilder& Builder) -> FPassExecute {
 		DeclareLobePixels(Builder, GBuffer, {Output, Second});
 		Builder.Read(Shared.Fresh, ERTAccess::ShaderRead);
+		if (Changes.IsValid()) { Builder.Write(Changes, ERTAccess::StorageWrite); }
 		if (Toon.IsValid()) { Builder.Read(Toon, ERTAccess::ShaderRead); }
 		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
@@ -63,12 +73,14 @@ void AddPathResolve(FFrameContext& Context, const FGBuffer& GBuffer, const FShar
 			FSharedPathConstants C{};
 			C.Pass = Frame->Pass;
 			C.Shared = GetAddress(Pass, Shared.Fresh);
+			C.Changes = Changes.IsValid() ? GetAddress(Pass, Changes) : 0;
 			C.ToonPixels = GetSampledIndex(Pass, Toon);
 			C.BackAlbedo = GetSampledIndex(Pass, GBuffer.BackAlbedo);
 			SetLobePixels(Pass, GBuffer, {Output, Second}, C);
 			Dispatch2D(Pass, Shared.Resolve, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
+	return Changes;
 }
 
 } // namespace Lantern

@@ -25,8 +25,9 @@ void AddSharedPathShaders(
 FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, bool bBothSides, uint64_t Threads);
 /// Pixels up to which what a path meets is near, and lights the path's own pixel alone.
 float GetNearPixels(const FFrameContext& Context);
-/// Adds the pass that lights pixels by what the paths have found. Second: of the second lobe; invalid: there is none.
-void AddPathResolve(
+/// Adds the pass that lights pixels by what the paths have found. Second: of the second lobe; invalid: there is none. Returns FPathChange of
+/// each tile; invalid: nothing has changed for long.
+FGraphBuffer AddPathResolve(
     FFrameContext& Context, const FGBuffer& GBuffer, const FSharedPaths& Shared, FGraphTexture Output, FGraphTexture Second);
 
 } // namespace Lantern
