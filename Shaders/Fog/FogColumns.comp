@@ -1,4 +1,5 @@
 // Finds how far the view sees into each column, by what the frame before saw.
+// CURRENT_DEPTH: by what this frame sees. Depth and the previous columns are then its own.
 #version 460
 #include "Froxels.glsl"
 
@@ -27,17 +28,38 @@ vec2 FarthestOf(ivec2 Low, ivec2 High)
 
 bool IsWithin(float Distance, float Farthest) { return Farthest <= 0.0 || Distance <= Farthest; }
 
+// Finds where Depth knows a point of a column: see FindPreviousPlace.
+bool FindKnownPlace(FViewConstants View, vec3 Place, out vec2 Pixel, out float Distance)
+{
+#ifdef CURRENT_DEPTH
+	Pixel = Place.xy * float(Push.Grid.PixelSize);
+	Distance = FroxelDistance(Push.Grid, Place.z);
+	return true;
+#else
+	return FindPreviousPlace(View, FroxelPosition(Push.Grid, View, Place), Pixel, Distance);
+#endif
+}
+
+bool IsDepthKnown(FViewConstants View)
+{
+#ifdef CURRENT_DEPTH
+	return true;
+#else
+	return Push.Depth != NO_TEXTURE && View.bHistory != 0u;
+#endif
+}
+
 // Returns how many slices are lit (x), and where what the column shows ends (y), in slices.
 vec2 FindEnd(FViewConstants View, uvec2 Column)
 {
 	vec2 Everything = vec2(Push.Grid.Slices), End = vec2(-1.0);
-	if (Push.Depth == NO_TEXTURE || View.bHistory == 0u) { return Everything; }
+	if (!IsDepthKnown(View)) { return Everything; }
 	float Behind = 0.0; // distance at which the slice ends
 	[[dont_unroll]] for (uint Slice = Push.Grid.Slices + 1u; Slice > 0u; --Slice)
 	{
 		vec2 Pixel;
 		float Distance, Begin = float(Slice - 1u);
-		if (!FindPreviousPlace(View, FroxelPosition(Push.Grid, View, vec3(vec2(Column) + 0.5, Begin)), Pixel, Distance)) { return Everything; }
+		if (!FindKnownPlace(View, vec3(vec2(Column) + 0.5, Begin), Pixel, Distance)) { return Everything; }
 		if (Slice > Push.Grid.Slices)
 		{
 			Behind = Distance;

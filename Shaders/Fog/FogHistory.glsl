@@ -1,35 +1,27 @@
-// What the frame before knew of a froxel. The includer has FFogShadowConstants Push.
+// What the frame before knew of a froxel. The includer has Push, with Grid, PreviousColumns, PreviousRows and PreviousCounts as in
+// FFogShadowConstants, and
+//   FFroxelValue                                                          what is known of one, and NoFroxelValue()
+//   bool AddFroxel(ivec2 Texel, float Weight, inout FFroxelValue Sum)     adds one of the frame before; false: it holds no number
+//   void ScaleFroxel(float Factor, inout FFroxelValue Value)
 #ifndef LANTERN_FOG_HISTORY_GLSL
 #define LANTERN_FOG_HISTORY_GLSL
 
 #include "Froxels.glsl"
 #include "../Library/Math.glsl"
 
-struct FFogValue
-{
-	float Visibility;
-	vec3 Light;
-};
-
 // Reads one froxel of the frame before. Returns its weight: 0 if it was out of view.
-float LoadPreviousFroxel(FFogGrid Grid, ivec3 Froxel, float Weight, inout FFogValue Sum)
+float LoadPreviousFroxel(FFogGrid Grid, ivec3 Froxel, float Weight, inout FFroxelValue Sum)
 {
 	ivec3 Inside = clamp(Froxel, ivec3(0), ivec3(Grid.Columns, Grid.Rows, Grid.Slices) - 1);
 	float End = texelFetch(Textures[Push.PreviousCounts], Inside.xy, 0).y;
 	if (!(End > float(Inside.z))) { return 0.0; } // nor is what is no number
-	ivec2 Texel = FroxelTexel(Grid, Inside);
-	float Visibility = Push.PreviousVisibility != NO_TEXTURE ? texelFetch(Textures[Push.PreviousVisibility], Texel, 0).x : 0.0;
-	vec3 Light = Push.PreviousLight != NO_TEXTURE ? texelFetch(Textures[Push.PreviousLight], Texel, 0).xyz : vec3(0.0);
-	if (any(isnan(Light)) || any(isinf(Light))) { return 0.0; }
-	Sum.Visibility += Weight * Visibility;
-	Sum.Light += Weight * Light;
-	return Weight;
+	return AddFroxel(FroxelTexel(Grid, Inside), Weight, Sum) ? Weight : 0.0;
 }
 
 // Interpolates what the frame before knew at Relative, a position relative to the camera. Returns false if that was nothing.
-bool LoadFogHistory(FViewConstants View, vec3 Relative, out FFogValue Value)
+bool LoadFogHistory(FViewConstants View, vec3 Relative, out FFroxelValue Value)
 {
-	Value = FFogValue(0.0, vec3(0.0));
+	Value = NoFroxelValue();
 	vec2 Pixel;
 	float Distance;
 	if (Push.PreviousCounts == NO_TEXTURE || View.bHistory == 0u || !FindPreviousPlace(View, Relative, Pixel, Distance)) { return false; }
@@ -50,8 +42,7 @@ bool LoadFogHistory(FViewConstants View, vec3 Relative, out FFogValue Value)
 		if (Weight > 0.0) { Weights += LoadPreviousFroxel(Grid, ivec3(floor(Place)) + Corner, Weight, Value); }
 	}
 	if (Weights < 0.01) { return false; }
-	Value.Visibility /= Weights;
-	Value.Light /= Weights;
+	ScaleFroxel(1.0 / Weights, Value);
 	return true;
 }
 

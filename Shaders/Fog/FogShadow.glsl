@@ -14,7 +14,34 @@ layout(push_constant, scalar) uniform FPush { FFogShadowConstants Push; };
 #include "../Library/Casters.glsl"
 #include "../Library/Random.glsl"
 #include "../Library/Sun.glsl"
+#include "Froxels.glsl"
+
+struct FFroxelValue
+{
+	float Visibility;
+	vec3 Light;
+};
+
+FFroxelValue NoFroxelValue() { return FFroxelValue(0.0, vec3(0.0)); }
+
+bool AddFroxel(ivec2 Texel, float Weight, inout FFroxelValue Sum)
+{
+	float Visibility = Push.PreviousVisibility != NO_TEXTURE ? texelFetch(Textures[Push.PreviousVisibility], Texel, 0).x : 0.0;
+	vec3 Light = Push.PreviousLight != NO_TEXTURE ? texelFetch(Textures[Push.PreviousLight], Texel, 0).xyz : vec3(0.0);
+	if (any(isnan(Light)) || any(isinf(Light))) { return false; }
+	Sum.Visibility += Weight * Visibility;
+	Sum.Light += Weight * Light;
+	return true;
+}
+
+void ScaleFroxel(float Factor, inout FFroxelValue Value)
+{
+	Value.Visibility *= Factor;
+	Value.Light *= Factor;
+}
+
 #include "FogHistory.glsl"
+#include "FroxelSample.glsl"
 
 const float FogRayLength = 1.0e5; // metres, to the sun
 const float MostFogLight = 65504.0; // of a half float
@@ -25,28 +52,14 @@ float UnblockedShare(vec3 Origin, vec3 Direction, float Length, uint Mask);
 #include "FogLights.glsl"
 #endif
 
-// Points that fill a froxel evenly over frames, whichever share of all frames the froxel is traced in (Roberts 2018, "The Unreasonable
-// Effectiveness of Quasirandom Sequences").
-vec3 FroxelJitter(uint FrameIndex, uint Seed)
+// End: see PlaceInFroxel.
+FFroxelValue TraceFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, float End)
 {
-	uvec3 Offset = HashPcg4(uvec4(Seed, 1u, 2u, 3u)).xyz;
-	return vec3((Offset + FrameIndex * uvec3(3518319155u, 2882110345u, 2360945575u)) >> 8u) * (1.0 / 16777216.0);
-}
-
-// End: of what the column shows, in slices. Light behind that would leak through walls.
-FFogValue TraceFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, float End)
-{
-	uint Seed = HashPcg(uint(Froxel.x) + HashPcg(uint(Froxel.y) + HashPcg(uint(Froxel.z) + HashPcg(View.Seed))));
+	uint Seed = SeedOfFroxel(View, Froxel);
 	FRandom Random = MakeRandom(uvec2(Froxel.xy), View.FrameIndex, Seed);
-	vec3 Jitter = FroxelJitter(View.FrameIndex, Seed);
-	vec3 At = vec3(Froxel) + Jitter;
-	if (End < float(Froxel.z + 1)) { At.z = End > float(Froxel.z) ? mix(float(Froxel.z), End, Jitter.z) : max(End - 0.05, 0.01); }
-#ifdef FOG_NEXT_SLICE
-	At.z = float(Froxel.z) + 1.5;
-#endif
-	vec3 Relative = FroxelPosition(Push.Grid, View, At);
+	vec3 Relative = PlaceInFroxel(Push.Grid, View, Froxel, End, FroxelJitter(View.FrameIndex, Seed));
 	vec3 P = View.CameraPosition + Relative;
-	FFogValue Value = FFogValue(0.0, vec3(0.0));
+	FFroxelValue Value = FFroxelValue(0.0, vec3(0.0));
 #ifdef FOG_SUN
 	Scene.SunOneMinusCos = Push.SunOneMinusCos;
 	vec3 ToSun = Push.SunOneMinusCos > 0.0 ? SampleSunDirection(Scene, NextRandom4(Random).xy) : -Scene.SunDirection;
@@ -70,16 +83,16 @@ float DitherVisibility(float Visibility, ivec3 Froxel, uint FrameIndex)
 	return floor(Visibility * 255.0 + Threshold) / 255.0;
 }
 
-// Count: of slices that are lit. End: see TraceFroxel.
+// Count: of slices that are lit. End: see PlaceInFroxel.
 void LightFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, uint Count, float End, bool bTurn)
 {
-	FFogValue Value = FFogValue(0.0, vec3(0.0)), Traced;
+	FFroxelValue Value = FFroxelValue(0.0, vec3(0.0)), Traced;
 	bool bKnown = LoadFogHistory(View, FroxelPosition(Push.Grid, View, vec3(Froxel) + 0.5), Value);
 	if (uint(Froxel.z) < Count && (bTurn || !bKnown))
 	{
 		Traced = TraceFroxel(Scene, View, Froxel, End);
 		float Share = bKnown ? Push.Share : 1.0;
-		Value = FFogValue(mix(Value.Visibility, Traced.Visibility, Share), mix(Value.Light, Traced.Light, Share));
+		Value = FFroxelValue(mix(Value.Visibility, Traced.Visibility, Share), mix(Value.Light, Traced.Light, Share));
 	}
 	ivec2 Texel = FroxelTexel(Push.Grid, Froxel);
 	if (Push.OutVisibility != NO_TEXTURE)

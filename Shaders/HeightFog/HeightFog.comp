@@ -1,8 +1,10 @@
-// Fog whose density falls off with height, scattering once: light of the sun and of local lights by froxels, the sky's without shadow.
+// Fog whose density falls off with height, scattering once: light of the sun, of local lights and of all around by froxels. Without the last,
+// the sky's light has no shadow.
 // The sun's light arrives as if no fog lay on its way. HAS_SUN, HAS_SKY: defined if the scene has such.
 #version 460
 #include "../Shared/HeightFogTypes.h"
 #include "../Fog/FogAtlas.glsl"
+#include "../IndirectVolume/ReadVolume.glsl"
 #include "../Library/Phase.glsl"
 #include "../Library/GBuffer.glsl"
 #include "../Library/SkyLight.glsl"
@@ -35,6 +37,13 @@ void Step(inout FMarch March, vec3 Source, vec3 P, vec3 Direction, float Length)
 	March.Transmittance = Left;
 }
 
+// Returns what the fog scatters of light that comes by surfaces, the sky and what shines. Far: what it takes where nothing else is known.
+vec3 ScatterIndirect(vec2 Pixel, float Distance, float End, vec3 Direction, vec3 Far)
+{
+	if (Push.VolumeLight == NO_TEXTURE || Distance >= Push.VolumeGrid.Distance) { return Far; }
+	return AirScattered(SampleIndirectVolume(Push.VolumeGrid, Push.VolumeLight, Push.VolumeMoment, Pixel, Distance, End), Direction, Push.Phase);
+}
+
 void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
@@ -55,12 +64,15 @@ void main()
 #endif
 	FMarch March = FMarch(vec3(0.0), 1.0);
 	float Begin = 0.0;
+	vec3 Indirect = Sky;
 	[[dont_unroll]] for (uint Slice = 0u; Slice < Push.Grid.Slices && Begin < End; ++Slice)
 	{
 		float Next = min(FroxelDistance(Push.Grid, float(Slice + 1u)), End);
 		vec4 Lit = SampleFog(Push.Grid, Push.Visibility, Push.Light, At - PixelJitter(View), 0.5 * (Begin + Next), End);
+		// It changes more slowly than shadows do.
+		if ((Slice & 1u) == 0u) { Indirect = ScatterIndirect(At - PixelJitter(View), 0.5 * (Begin + Next), End, Direction, Sky); }
 		vec3 P = View.CameraPosition + RelativePosition(View, At, Begin);
-		Step(March, Sun * Lit.w + Lit.xyz + Sky, P, Direction, (Next - Begin) * PerDistance);
+		Step(March, Sun * Lit.w + Lit.xyz + Indirect, P, Direction, (Next - Begin) * PerDistance);
 		Begin = Next;
 	}
 	if (Begin < End)

@@ -6,7 +6,12 @@
 #define LANTERN_BRDF_GLSL
 
 #include "Math.glsl"
+
+// Places in a volume, or in the air, scatter light.
 #ifdef HAS_SCATTERING
+#define HAS_PHASE
+#endif
+#ifdef HAS_PHASE
 #include "Phase.glsl"
 #endif
 
@@ -26,7 +31,7 @@ struct FBrdf
 #ifdef HAS_BACK_LOBE
 	vec3 BackAlbedo; // of the base, for light that arrives on the other side and leaves on V's: a Lambert lobe about −z
 #endif
-#ifdef HAS_SCATTERING
+#ifdef HAS_PHASE
 	bool bPhase; // a place within a volume, where light is scattered evenly or by Anisotropy, and no surface
 	float Anisotropy;
 #endif
@@ -34,7 +39,7 @@ struct FBrdf
 
 bool IsPhase(FBrdf Brdf)
 {
-#ifdef HAS_SCATTERING
+#ifdef HAS_PHASE
 	return Brdf.bPhase;
 #else
 	return false;
@@ -94,13 +99,13 @@ FBrdf MakeLambert(vec3 Albedo)
 #ifdef HAS_BACK_LOBE
 	Brdf.BackAlbedo = vec3(0.0);
 #endif
-#ifdef HAS_SCATTERING
+#ifdef HAS_PHASE
 	Brdf.bPhase = false;
 #endif
 	return Brdf;
 }
 
-#ifdef HAS_SCATTERING
+#ifdef HAS_PHASE
 FBrdf MakePhase(float Anisotropy)
 {
 	FBrdf Brdf = MakeLambert(vec3(0.0));
@@ -181,7 +186,7 @@ void EvaluateLobes(FBrdf Brdf, vec3 V, vec3 L, out vec3 Diffuse, out vec3 Specul
 // Returns the BRDF times |n·l|, without the specular lobe of a mirror.
 vec3 EvaluateBrdfCos(FBrdf Brdf, vec3 V, vec3 L)
 {
-#ifdef HAS_SCATTERING
+#ifdef HAS_PHASE
 	if (Brdf.bPhase) { return vec3(PhaseFunction(-dot(V, L), Brdf.Anisotropy)); }
 #endif
 	vec3 Diffuse, Specular;
@@ -238,7 +243,7 @@ float BackProbability(FBrdf Brdf)
 // Returns the pdf with which SampleBrdf samples L. It omits the delta of a mirror.
 float BrdfPdf(FBrdf Brdf, vec3 V, vec3 L)
 {
-#ifdef HAS_SCATTERING
+#ifdef HAS_PHASE
 	if (Brdf.bPhase) { return PhaseFunction(-dot(V, L), Brdf.Anisotropy); }
 #endif
 	if (L.z == 0.0 || V.z <= 0.0 || (L.z < 0.0 && !HasBack(Brdf))) { return 0.0; }

@@ -22,9 +22,11 @@ struct FHeightFogConstants
 	float BaseHeight;     // relative to the scene's origin, metres
 	float Albedo;
 	float Phase; // g of Henyey and Greenstein
-	float Sky;   // share of the sky's light
+	float Sky;   // share of the sky's light, where Volume does not say what arrives
+	FFogGrid VolumeGrid;                 // of indirect light in the air
+	uint VolumeLight, VolumeMoment;      // sampled indices; the first NO_TEXTURE: there is none
 };
-LANTERN_ASSERT_SIZE(FHeightFogConstants, 88);
+LANTERN_ASSERT_SIZE(FHeightFogConstants, 120);
 
 LANTERN_SHARED_END
 

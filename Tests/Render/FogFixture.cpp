@@ -67,26 +67,51 @@ FFogPicture FFogTest::RenderFog(const FView& View, uint32_t Frames)
 		AddRead(Context, Frame.Fog.Visibility, Visibility);
 		AddRead(Context, Frame.Fog.Light, Light);
 	};
+	RenderFrames(View, Frames);
+	if (Visibility)
+	{
+		const auto* const Bytes = static_cast<const uint8_t*>(Visibility->GetMapped());
+		for (uint64_t I = 0; I < Visibility->GetDesc().Size; ++I) { Picture.Visibility.push_back(float(Bytes[I]) / 255.0f); }
+	}
+	Picture.Light = UnpackHalves(Light);
+	return Picture;
+}
+
+void FFogTest::RenderFrames(const FView& View, uint32_t Frames)
+{
 	for (uint32_t Frame = 0; Frame < Frames; ++Frame)
 	{
 		EXPECT_OK(GetEngine().RenderFrame(View, 0.0, {}, nullptr));
 		EXPECT_OK(GetEngine().GetRenderer().WaitForAll());
 	}
 	GetEngine().ExtraPasses = {};
-	if (Visibility)
+}
+
+std::vector<glm::vec3> FFogTest::UnpackHalves(const TRTRef<IRTBuffer>& Buffer)
+{
+	std::vector<glm::vec3> Out;
+	if (!Buffer) { return Out; }
+	const auto* const Halves = static_cast<const uint16_t*>(Buffer->GetMapped());
+	for (uint64_t I = 0; I < Buffer->GetDesc().Size / 8; ++I)
 	{
-		const auto* const Bytes = static_cast<const uint8_t*>(Visibility->GetMapped());
-		for (uint64_t I = 0; I < Visibility->GetDesc().Size; ++I) { Picture.Visibility.push_back(float(Bytes[I]) / 255.0f); }
+		Out.emplace_back(
+		    glm::unpackHalf1x16(Halves[4 * I]), glm::unpackHalf1x16(Halves[4 * I + 1]), glm::unpackHalf1x16(Halves[4 * I + 2]));
 	}
-	if (Light)
-	{
-		const auto* const Halves = static_cast<const uint16_t*>(Light->GetMapped());
-		for (uint64_t I = 0; I < Light->GetDesc().Size / 8; ++I)
-		{
-			Picture.Light.emplace_back(
-			    glm::unpackHalf1x16(Halves[4 * I]), glm::unpackHalf1x16(Halves[4 * I + 1]), glm::unpackHalf1x16(Halves[4 * I + 2]));
-		}
-	}
+	return Out;
+}
+
+FFogPicture FFogTest::RenderVolume(const FView& View, uint32_t Frames, std::vector<glm::vec3>& OutMoments)
+{
+	FFogPicture Picture;
+	TRTRef<IRTBuffer> Light, Moment;
+	GetEngine().ExtraPasses = [&](FFrameContext& Context, const FGBuffer&, const FFrameOutputs& Frame) {
+		Picture.Grid = Frame.IndirectVolume.Grid;
+		AddRead(Context, Frame.IndirectVolume.Light, Light);
+		AddRead(Context, Frame.IndirectVolume.Moment, Moment);
+	};
+	RenderFrames(View, Frames);
+	Picture.Light = UnpackHalves(Light);
+	OutMoments = UnpackHalves(Moment);
 	return Picture;
 }
 

@@ -37,11 +37,15 @@ protected:
 	void TearDown() override;
 	/// Renders frames, and reads the atlas of the last one.
 	FFogPicture RenderFog(const FView& View, uint32_t Frames = 1);
+	/// As RenderFog, of indirect light. OutMoments: by texel.
+	FFogPicture RenderVolume(const FView& View, uint32_t Frames, std::vector<glm::vec3>& OutMoments);
 	/// Mean of the atlases of Frames frames. Settings decide how much they know of each other.
 	FFogPicture MeanFog(const FView& View, uint32_t Frames);
 	static FRTScene& GetWorld() { return GetScene().GetScene(); }
 
 private:
+	void RenderFrames(const FView& View, uint32_t Frames);
+	static std::vector<glm::vec3> UnpackHalves(const TRTRef<IRTBuffer>& Buffer);
 	void AddRead(FFrameContext& Context, FGraphTexture Texture, TRTRef<IRTBuffer>& Out);
 };
 

@@ -187,6 +187,7 @@ FRTStatus FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameVi
 	Made.Fog = AddFogShadowPass(Context);
 	AddFogDepthPass(Context, GBuffer);
 	Made.Transmission = AddTransmissionPass(Context, GBuffer);
+	Made.IndirectVolume = AddIndirectVolumePass(Context, GBuffer);
 	for (const FSignalInfo& Info : SignalInfos)
 	{
 		if (Context.Signals.Wanted.Has(Info.Signal)) { Made.Get(Info.Signal) = AddSignalPass(Context, Info.Signal, GBuffer); }
@@ -223,6 +224,12 @@ void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 	if (Made.LightMask.IsValid()) { Handed.push_back({Made.LightMask.Lights, &LightMask.Lights}); }
 	if (Made.Fog.Light.IsValid()) { Handed.push_back({Made.Fog.Light, &Fog.Light}); }
 	Fog.Grid = Made.Fog.Grid;
+	if (Made.IndirectVolume.IsValid())
+	{
+		Handed.push_back({Made.IndirectVolume.Light, &IndirectVolume.Light});
+		Handed.push_back({Made.IndirectVolume.Moment, &IndirectVolume.Moment});
+	}
+	IndirectVolume.Grid = Made.IndirectVolume.Grid;
 	if (Handed.empty()) { return; }
 	Graph.AddPass("HandToEngine", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const auto& [Texture, Held] : Handed) { Builder.Read(Texture, ERTAccess::ShaderRead); }
@@ -237,6 +244,7 @@ void FModuleRenderer::ReleaseOutputs()
 {
 	Outputs.fill(nullptr);
 	Fog = {};
+	IndirectVolume = {};
 	LightMask = {};
 	Transmission = {};
 }
@@ -267,6 +275,7 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame, bool b
 		if (bMakes && Frame.Wanted.Has(Info.Signal)) { Features.Signals.Wanted.Add(Info.Signal); }
 	}
 	Features.Signals.bFog = Frame.bFog;
+	Features.Signals.bIndirectVolume = Frame.bIndirectVolume;
 	Features.Signals.FogPhase = Frame.FogPhase;
 	Features.Signals.bLightMask = Frame.bLightMask;
 	Features.Signals.bTransmission = Frame.bTransmission;
@@ -343,6 +352,14 @@ FRTStatus FModuleRenderer::RecordAhead(const FRTModuleFrame& Frame, const FFrame
 	return Status;
 }
 
+FRTModuleIndirectVolume FModuleRenderer::MakeIndirectVolume() const
+{
+	if (!IndirectVolume.Light) { return {}; }
+	const FFogGrid& Grid = IndirectVolume.Grid;
+	return {IndirectVolume.Light.Get(), IndirectVolume.Moment.Get(), Grid.PixelSize, Grid.Columns, Grid.Rows, Grid.Slices, Grid.PerRow,
+	    Grid.Distance};
+}
+
 FRTModuleFog FModuleRenderer::MakeFog() const
 {
 	if (!Fog.Visibility && !Fog.Light) { return {}; }
@@ -385,6 +402,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
 	Out->Fog = MakeFog();
+	Out->IndirectVolume = MakeIndirectVolume();
 	Out->Transmission = {Transmission.Light.Get(), Transmission.Transmittance.Get(), Transmission.Looks.Get()};
 	Out->LightMask = {LightMask.Visibility.Get(), LightMask.Lights.Get()};
 	if (GetFenceQueue(Ahead) == ERTQueue::Graphics) { Ahead = 0; } // one queue runs in order

@@ -110,6 +110,7 @@ private:
 	FRTStatus RecordAhead(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead);
 	FRTStatus AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views);
 	FRTModuleFog MakeFog() const;
+	FRTModuleIndirectVolume MakeIndirectVolume() const;
 	FRTModuleWait MakeWait() const;
 	void TakeOver();
 	void HandToEngine(const FFrameOutputs& Made);
@@ -149,6 +150,11 @@ private:
 		TRTRef<IRTTexture> Visibility, Light;
 		FFogGrid Grid{};
 	} Fog; ///< of the last frame
+	struct
+	{
+		TRTRef<IRTTexture> Light, Moment;
+		FFogGrid Grid{};
+	} IndirectVolume; ///< of the last frame
 	struct
 	{
 		TRTRef<IRTTexture> Visibility, Lights;

@@ -26,6 +26,7 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 	Out.Get(ESignal::AmbientOcclusion) = AddAmbientOcclusionPass(Context, GBuffer);
 	Out.Get(ESignal::Reflections) = AddReflectionsPass(Context, GBuffer);
 	Out.Transmission = AddTransmissionPass(Context, GBuffer);
+	Out.IndirectVolume = AddIndirectVolumePass(Context, GBuffer);
 	Out.Get(ESignal::DiffuseGI) = AddDiffuseGIPass(Context, GBuffer);
 	Out.Get(ESignal::RoughSpecular) = AddRoughSpecularPass(Context, GBuffer);
 	Out.Lighting =
@@ -33,7 +34,7 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 	                                       Out.Get(ESignal::DiffuseGI), Out.Get(ESignal::Reflections), Out.Get(ESignal::RoughSpecular),
 	                                       Out.Get(ESignal::LocalDiffuse), Out.Get(ESignal::LocalSpecular)});
 	Out.Lighting = AddTransmissionComposite(Context, Out.Lighting, Out.Transmission);
-	Out.Lighting = AddHeightFogPass(Context, GBuffer, Out.Lighting, Out.Fog);
+	Out.Lighting = AddHeightFogPass(Context, GBuffer, Out.Lighting, Out.Fog, Out.IndirectVolume);
 	Out.Display = AddToneMapPass(Context, Out.Lighting);
 	Out.Display = AddDebugView(Context, GBuffer, Out);
 	return Out;

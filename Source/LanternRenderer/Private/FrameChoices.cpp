@@ -71,7 +71,7 @@ FSignalRequests CompleteRequests(FSignalRequests Requests)
 	Requests.bTransmission = true;
 	if (HasHeightFog())
 	{
-		Requests.bFog = true;
+		Requests.bFog = Requests.bIndirectVolume = true;
 		Requests.FogPhase = GetHeightFogPhase();
 	}
 	return Requests;

@@ -7,6 +7,7 @@
 #include "Feedback/AnyHitCounter.h"
 #include "Fog/FogShadow.h"
 #include "FrameChoices.h"
+#include "IndirectVolume/IndirectVolume.h"
 #include "LanternRenderer/HostSurface.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
 #include "Lights/EmissiveTriangles.h"
@@ -207,6 +208,7 @@ FRayPrograms ChooseRayPrograms(
 		CollectPass(
 		    Collector, EPassRayGen::RadianceCells, RadianceCellShaders, ChooseRadianceCellRays(Query, Collector.RadianceCells), Facts);
 		CollectPass(Collector, EPassRayGen::Transmission, TransmissionShaders, ChooseTransmissionRays(Query), Facts);
+		CollectPass(Collector, EPassRayGen::IndirectVolume, IndirectVolumeShaders, ChooseIndirectVolumeRays(Query), Facts);
 		Programs.bMotion = (Programs.bMotion && Features.bMotion) || Collector.bFollowsHits;
 	}
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }

@@ -338,6 +338,7 @@ FRTModuleFrame MakeFrame(FModulePlay& Play, bool bMayLack)
 	MakeLayout(Play, Frame.Layout);
 	if (Play.Bool(true)) { Frame.Wanted.Add(ESignal::AmbientOcclusion); }
 	Frame.bFog = Play.Bool(false);
+	Frame.bIndirectVolume = Play.Bool(false);
 	Frame.bLightMask = Play.Bool(false);
 	return Frame;
 }

@@ -26,7 +26,7 @@ namespace Lantern
 
 /// Incremented when anything changes that an engine was compiled with: in this folder, LanternSignals/Signals.h or
 /// the RHI. The library refuses other versions. A new signal is no change: the arrays have room for MaxSignals.
-inline constexpr uint32_t ModuleVersion = 11;
+inline constexpr uint32_t ModuleVersion = 12;
 
 class IRTModuleVulkan;
 

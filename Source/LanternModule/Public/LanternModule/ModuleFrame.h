@@ -241,6 +241,9 @@ struct FRTModuleFrame
 	bool bFog = false;
 	/// How forward the engine's fog scatters: g of Henyey and Greenstein (1941), -1 < g < 1. 0: alike in all directions.
 	float FogPhase = 0.0f;
+	/// The engine reads FRTModuleOutputs::IndirectVolume. It needs no input but Depth and Normals, and has a use if Wanted has DiffuseGI. A
+	/// first frame with it has none until shaders are compiled.
+	bool bIndirectVolume = false;
 	/// The engine lights by itself and reads FRTModuleOutputs::LightMask. ESignal::LocalDiffuse and LocalSpecular then hold only what is not
 	/// in the mask. It needs no input but Depth and Normals. A first frame with it has none of the three until shaders are compiled.
 	bool bLightMask = false;
@@ -300,6 +303,22 @@ struct FRTModuleFog
 	float Distance = 0.0f; ///< metres
 };
 
+/// Indirect light in the air, for fog, particles and translucent surfaces: that of the sky, of what shines, and all that surfaces reflect. The
+/// sun's disk and local lights are not in it. Froxels lie as those of FRTModuleFog do, in a grid of their own. The radiance from a direction D
+/// is about Light * (1 + 3 * dot(Moment, D) / luminance(Light)). D is in a right-handed world with y up, in which FRTModuleWorld says how the
+/// engine's axes lie. Shaders/IndirectVolume/ReadVolume.glsl has the irradiance of a surface, and what fog scatters. Froxels behind what
+/// the picture shows, but for one more slice, keep what they had.
+struct FRTModuleIndirectVolume
+{
+	/// RGBA16_FLOAT: mean radiance over all directions, in nits. Null: there are no radiance cells (r.RT.GI 2 or 3, and DiffuseGI in
+	/// FRTModuleFrame::Wanted), r.RT.GI.Volume is off, or as in FRTModuleOutputs.
+	IRTTexture* Light = nullptr;
+	/// RGBA16_FLOAT, xyz: mean over directions of luminance times direction, as D.
+	IRTTexture* Moment = nullptr;
+	uint32_t PixelSize = 0, ColumnCount = 0, RowCount = 0, SliceCount = 0, SlicesPerRow = 0;
+	float Distance = 0.0f; ///< metres
+};
+
 /// How much each pixel sees of the lights around it, for an engine's own lighting. The picture is divided into tiles of 8 x 8 pixels, from
 /// the view's corner on. A tile has 8 slots. All lights that reach it are in slots if they are no more. Else those are that bring most to
 /// some of its pixels, shadows aside. The engine multiplies its own light of a lamp by what the lamp's slot says, and by 0 where the
@@ -338,10 +357,11 @@ struct FRTModuleOutputs
 	/// Textures by ESignal, which says what each holds. SignalInfos has their formats.
 	IRTTexture* Signals[MaxSignals] = {};
 	IRTTexture* Get(ESignal Signal) const { return Signals[ToIndex(Signal)]; }
-	FRTModuleFog Fog;                   ///< with FRTModuleFrame::bFog
-	FRTModuleLightMask LightMask;       ///< with FRTModuleFrame::bLightMask
-	FRTModuleTransmission Transmission; ///< with FRTModuleFrame::bTransmission
-	FRTModuleWait Wait;                 ///< see FRTModuleFrame::bSubmitAhead
+	FRTModuleFog Fog;                       ///< with FRTModuleFrame::bFog
+	FRTModuleIndirectVolume IndirectVolume; ///< with FRTModuleFrame::bIndirectVolume
+	FRTModuleLightMask LightMask;           ///< with FRTModuleFrame::bLightMask
+	FRTModuleTransmission Transmission;     ///< with FRTModuleFrame::bTransmission
+	FRTModuleWait Wait;                     ///< see FRTModuleFrame::bSubmitAhead
 	/// Whether all shaders of the frame are compiled. They compile in the background; RenderFrame never waits for them
 	/// (IRTModuleRenderer::Precache does, at load). An output is null until its first shaders are ready, and is not filtered
 	/// until those of its filter are. Objects whose own shaders are missing then have the shadow of a stand-in, or none

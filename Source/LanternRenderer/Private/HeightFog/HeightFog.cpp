@@ -19,7 +19,8 @@ TRTConsoleVariable<float> CVarHeight("r.Fog.Height", 0.0f, "Height in the world 
 TRTConsoleVariable<float> CVarAlbedo("r.Fog.Albedo", 0.9f, "Share of the light that fog scatters rather than absorbs.", {0, 1});
 TRTConsoleVariable<float> CVarPhase(
     "r.Fog.Phase", 0.5f, "How forward the fog scatters: g of Henyey and Greenstein (1941). 0: alike in all directions.", {-0.99, 0.99});
-TRTConsoleVariable<float> CVarSky("r.Fog.Sky", 1.0f, "Share of the sky's light that reaches the fog, which nothing shadows.", {0, 1});
+TRTConsoleVariable<float> CVarSky("r.Fog.Sky", 1.0f,
+    "Share of the sky's light that reaches the fog, which nothing shadows. Does not count where r.RT.GI.Volume says what arrives.", {0, 1});
 
 FHeightFogConstants MakeConstants(const FFrameContext& Context)
 {
@@ -53,7 +54,8 @@ FShaderSource MakeHeightFogSource(const FSceneFacts& Facts)
 	return MakeComputeSource("HeightFog/HeightFog.comp", std::move(Defines));
 }
 
-FGraphTexture AddHeightFogPass(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture Lighting, const FFogAtlas& Fog)
+FGraphTexture AddHeightFogPass(
+    FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture Lighting, const FFogAtlas& Fog, const FIndirectVolume& Volume)
 {
 	if (!HasHeightFog() || !Lighting.IsValid()) { return Lighting; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeHeightFogSource(Context.Facts));
@@ -64,7 +66,7 @@ FGraphTexture AddHeightFogPass(FFrameContext& Context, const FGBuffer& GBuffer, 
 	FHeightFogConstants Constants = MakeConstants(Context);
 	Constants.Grid = Fog.IsValid() ? Fog.Grid : MakeBareGrid();
 	Context.Graph.AddPass("HeightFog", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Texture : {GBuffer.Depth, Lighting, SkyLight, Fog.Visibility, Fog.Light})
+		for (const FGraphTexture Texture : {GBuffer.Depth, Lighting, SkyLight, Fog.Visibility, Fog.Light, Volume.Light, Volume.Moment})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -73,6 +75,9 @@ FGraphTexture AddHeightFogPass(FFrameContext& Context, const FGBuffer& GBuffer, 
 			FHeightFogConstants C = Constants;
 			C.Visibility = GetSampledIndex(Pass, Fog.Visibility);
 			C.Light = GetSampledIndex(Pass, Fog.Light);
+			C.VolumeGrid = Volume.Grid;
+			C.VolumeLight = GetSampledIndex(Pass, Volume.Light);
+			C.VolumeMoment = GetSampledIndex(Pass, Volume.Moment);
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			C.Lighting = GetSampledIndex(Pass, Lighting);
 			C.SkyLight = GetSampledIndex(Pass, SkyLight);

@@ -14,6 +14,7 @@ float GetHeightFogPhase();
 FShaderSource MakeHeightFogSource(const FSceneFacts& Facts);
 
 /// Returns Lighting behind fog, RGBA32_FLOAT. Lighting itself: there is no fog, or its shader is being compiled.
-FGraphTexture AddHeightFogPass(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture Lighting, const FFogAtlas& Fog);
+FGraphTexture AddHeightFogPass(
+    FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture Lighting, const FFogAtlas& Fog, const FIndirectVolume& Volume);
 
 } // namespace Lantern

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "Feedback/RadianceAuditor.h"
+#include "IndirectVolume/IndirectVolume.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "LanternCore/Text/Log.h"
 #include "Lights/LightCells.h"
@@ -135,11 +136,12 @@ void SetChanges(FFrameContext& Context, const FRadianceEvents::FFound& Events, u
 	const FMoversOfFrame& Movers = RequireMovers(Context);
 	Grid.Movers = Movers.Casters;
 	Grid.MoverCount = Movers.Count;
-	const float Delta = std::max(Context.View.DeltaSeconds, 1.0e-3f);
+	const float Delta = std::max(Context.View.DeltaSeconds, 1.0e-3f), Seconds = CVarSeconds.GetOnRenderThread();
 	const bool bOld = static_cast<float>(Age) * Delta >= static_cast<float>(FRadianceEvents::HoldSeconds);
-	const bool bChanges = bOld && (Movers.Count > 0 || !Events.Lamps.empty() || Events.Window < 1.0e9f);
+	const bool bSun = Events.Window < Seconds / Delta; // a slow one is averaged over as ever
+	const bool bChanges = bOld && (Movers.Count > 0 || !Events.Lamps.empty() || bSun);
 	const bool bLately = Context.RadianceEvents->HasChangedLately(bChanges);
-	Grid.Moment = bLately && CVarChange.GetOnRenderThread() ? PartInMoment * CVarSeconds.GetOnRenderThread() / Delta : 0.0f;
+	Grid.Moment = bLately && CVarChange.GetOnRenderThread() ? PartInMoment * Seconds / Delta : 0.0f;
 }
 
 std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
@@ -153,7 +155,8 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 	Cells->ReflectionVoters = std::max(Blocks, CountScreenProbeVoters(Context));
 	Cells->TransmissionVoters = Cells->ReflectionVoters + Blocks;
 	const bool bTransmission = Context.Facts.bTransmissive && Context.Signals.bTransmission;
-	Cells->Grid.VoteCount = Cells->TransmissionVoters + (bTransmission ? Blocks : 0);
+	Cells->VolumeVoters = Cells->TransmissionVoters + (bTransmission ? Blocks : 0);
+	Cells->Grid.VoteCount = Cells->VolumeVoters + CountIndirectVolumeVoters(Context);
 	Cells->EventFrames = Events.Window;
 	FHistoryBuffer History;
 	FRTStatus Status =

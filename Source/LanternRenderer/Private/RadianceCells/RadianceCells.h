@@ -23,6 +23,7 @@ struct FRadianceCells
 	uint32_t Slots = 0;
 	/// First voters of reflections, and of surfaces that light shines through. Those of the pass that keeps the cells come before them.
 	uint32_t ReflectionVoters = 0, TransmissionVoters = 0;
+	uint32_t VolumeVoters = 0; ///< the first one of indirect light in the air
 };
 
 /// What the updates of cells trace, and their other shaders, for frames with a pass whose rays end in them (FPassRays::bRadianceCells).

@@ -46,6 +46,7 @@ struct FFrameOutputs
 	FFogAtlas Fog;                                  ///< with FSignalRequests::bFog
 	FLightMask LightMask;                           ///< with FSignalRequests::bLightMask
 	FTransmission Transmission;                     ///< with FSignalRequests::bTransmission
+	FIndirectVolume IndirectVolume;                 ///< with FSignalRequests::bIndirectVolume
 	FGraphTexture& Get(ESignal Signal) { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
 	const FGraphTexture& Get(ESignal Signal) const { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
 };
@@ -61,6 +62,11 @@ FFogAtlas AddFogShadowPass(FFrameContext& Context);
 /// Notes how far the next frame's fog can be seen; after AddFogShadowPass. Does nothing without fog. A frame whose predecessor lacks it
 /// lights all froxels, whatever hides them.
 void AddFogDepthPass(FFrameContext& Context, const FGBuffer& GBuffer);
+
+/// Adds indirect light in the air, and returns it; later calls of a frame return what the first one did. It is added before the signals of
+/// indirect light: its rays ask for radiance cells as well. Reads Depth and Normals of the G-buffer. Invalid: nobody asks, r.RT.GI.Volume is
+/// off, nothing that somebody reads keeps radiance cells, or see FFrameOutputs.
+FIndirectVolume AddIndirectVolumePass(FFrameContext& Context, const FGBuffer& GBuffer);
 
 /// Adds the light mask, and returns it; later calls of a frame return what the first one did. Reads Depth, Normals and, if there is any,
 /// Motion of the G-buffer.

@@ -32,6 +32,8 @@ struct FSignalRequests
 	bool bFog = false;
 	/// How forward fog scatters: g of Henyey and Greenstein (1941), −1 < g < 1. 0: alike in all directions.
 	float FogPhase = 0.0f;
+	/// Somebody reads indirect light in the air (FIndirectVolume).
+	bool bIndirectVolume = false;
 	/// Somebody reads the light mask (FLightMask), and lights by itself with it. The signals of local lights, and with them the composite,
 	/// then lack the lights of the mask.
 	bool bLightMask = false;
@@ -105,6 +107,16 @@ struct FFogOfFrame
 	bool bAsked = false, bDepthAsked = false;
 };
 
+/// Indirect light in the air by froxels, in atlases of slices: FogTypes.h says where a froxel lies, ReadVolume.glsl how they are read. It has
+/// the sky's light, all that shines, and all that surfaces reflect; the sun's disk and local lights are FFogAtlas's.
+struct FIndirectVolume
+{
+	FGraphTexture Light;  ///< RGBA16_FLOAT: mean radiance over all directions, nits
+	FGraphTexture Moment; ///< RGBA16_FLOAT: mean of luminance times direction, in the axes of the world
+	FFogGrid Grid{};
+	bool IsValid() const { return Light.IsValid(); }
+};
+
 /// Surfaces in front of the G-buffer's that light shines through: Light + Transmittance · what the G-buffer's surface sends, and what Looks
 /// names of other pixels' surfaces.
 struct FTransmission
@@ -147,6 +159,7 @@ enum class EPassRayGen : uint8_t
 	Fog,
 	RadianceCells,
 	Transmission,
+	IndirectVolume,
 	DeferredPaths, ///< of a signal whose paths end in radiance cells: the second launch
 	Count
 };
@@ -190,11 +203,12 @@ struct FPixelsOfFrame
 	FGraphTexture DebugPicture;
 	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
 	bool bShadowRaysAsked = false;
-	std::optional<FLobes> LocalLobes;            ///< of local lights: as traced, or the half frame's, filtered; nullopt: not made so far
-	std::optional<FLobes> IndirectLobes;         ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
-	std::optional<FGraphTexture> ReflectedLight; ///< the signal; nullopt: nobody has asked so far
-	std::optional<FTransmission> Transmission;   ///< nullopt: nobody has asked so far
-	std::optional<FLightMask> LightMask;         ///< nullopt: nobody has asked so far
+	std::optional<FLobes> LocalLobes;              ///< of local lights: as traced, or the half frame's, filtered; nullopt: not made so far
+	std::optional<FLobes> IndirectLobes;           ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
+	std::optional<FGraphTexture> ReflectedLight;   ///< the signal; nullopt: nobody has asked so far
+	std::optional<FTransmission> Transmission;     ///< nullopt: nobody has asked so far
+	std::optional<FLightMask> LightMask;           ///< nullopt: nobody has asked so far
+	std::optional<FIndirectVolume> IndirectVolume; ///< nullopt: nobody has asked so far
 	/// The frame with a quarter of these pixels, for signals that do without the others. Null: nobody has asked so far.
 	std::shared_ptr<FHalfFrame> Half;
 };
