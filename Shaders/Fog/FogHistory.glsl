@@ -3,6 +3,7 @@
 //   FFroxelValue                                                          what is known of one, and NoFroxelValue()
 //   bool AddFroxel(ivec2 Texel, float Weight, inout FFroxelValue Sum)     adds one of the frame before; false: it holds no number
 //   void ScaleFroxel(float Factor, inout FFroxelValue Value)
+// KNOWS_LIT_FROXELS: those are known that were lit, also behind what their column showed.
 #ifndef LANTERN_FOG_HISTORY_GLSL
 #define LANTERN_FOG_HISTORY_GLSL
 
@@ -13,7 +14,12 @@
 float LoadPreviousFroxel(FFogGrid Grid, ivec3 Froxel, float Weight, inout FFroxelValue Sum)
 {
 	ivec3 Inside = clamp(Froxel, ivec3(0), ivec3(Grid.Columns, Grid.Rows, Grid.Slices) - 1);
-	float End = texelFetch(Textures[Push.PreviousCounts], Inside.xy, 0).y;
+	vec2 Counts = texelFetch(Textures[Push.PreviousCounts], Inside.xy, 0).xy;
+#ifdef KNOWS_LIT_FROXELS
+	float End = floor(0.5 * Counts.x);
+#else
+	float End = Counts.y;
+#endif
 	if (!(End > float(Inside.z))) { return 0.0; } // nor is what is no number
 	return AddFroxel(FroxelTexel(Grid, Inside), Weight, Sum) ? Weight : 0.0;
 }

@@ -75,6 +75,14 @@ void main()
 		Step(March, Sun * Lit.w + Lit.xyz + Indirect, P, Direction, (Next - Begin) * PerDistance);
 		Begin = Next;
 	}
+	if (Begin < min(End, Push.VolumeGrid.Distance) && Push.VolumeLight != NO_TEXTURE)
+	{
+		float Next = min(End, Push.VolumeGrid.Distance);
+		vec3 P = View.CameraPosition + RelativePosition(View, At, Begin);
+		Indirect = ScatterIndirect(At - PixelJitter(View), 0.5 * (Begin + Next), End, Direction, Sky);
+		Step(March, Sun + Indirect, P, Direction, (Next - Begin) * PerDistance);
+		Begin = Next;
+	}
 	if (Begin < End)
 	{
 		Step(March, Sun + Sky, View.CameraPosition + RelativePosition(View, At, Begin), Direction, (End - Begin) * PerDistance);

@@ -39,6 +39,7 @@ void ScaleFroxel(float Factor, inout FFroxelValue Value)
 	Value.Moment *= Factor;
 }
 
+#define KNOWS_LIT_FROXELS // rays start in front of what the column shows, in the slices behind it as well
 #include "../Fog/FogHistory.glsl"
 #include "../Fog/FroxelSample.glsl"
 
@@ -57,6 +58,9 @@ void AddDirection(FSceneConstants Scene, vec3 P, vec2 U, inout FFroxelValue Sum,
 	vec3 Direction = SampleCone(U, 2.0);
 #ifdef TINTED_SHADOWS
 	PlaceVolume = Air();
+#endif
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	BackStep = vec3(0.0); // of the path before
 #endif
 #ifdef HAS_EMISSIVE
 	vec3 ToLight;
@@ -86,9 +90,9 @@ FFroxelValue TraceFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxe
 	FFroxelValue Sum = NoFroxelValue();
 	for (uint Sample = 0u; Sample < Push.Samples; ++Sample)
 	{
-		uint Index = View.FrameIndex * Push.Samples + Sample;
+		uint Index = (View.FrameIndex >> 1u) * Push.Samples + Sample; // every other frame is its turn
 		vec3 Relative = PlaceInFroxel(Push.Grid, View, Froxel, End, FroxelJitter(Index, Seed));
-		AddDirection(Scene, View.CameraPosition + Relative, SobolOwen2(Index >> 1u, Seed), Sum, Random); // every other frame is its turn
+		AddDirection(Scene, View.CameraPosition + Relative, SobolOwen2(Index, Seed), Sum, Random);
 	}
 	ScaleFroxel(1.0 / float(Push.Samples), Sum);
 #ifdef NO_VOLUME_MOMENT

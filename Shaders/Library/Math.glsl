@@ -26,7 +26,7 @@ vec3 OctDecode(vec2 E)
 uint PackOct(vec3 V) { return packSnorm2x16(OctEncode(V)); }
 vec3 UnpackOct(uint P) { return OctDecode(unpackSnorm2x16(P)); }
 
-// 2 × snorm12, the lower 24 bits. Off by 0.03° at most.
+// 2 × snorm12, the lower 24 bits. Off by 0.06° at most.
 uint PackOct24(vec3 V)
 {
 	ivec2 E = ivec2(round(clamp(OctEncode(V), -1.0, 1.0) * 2047.0));

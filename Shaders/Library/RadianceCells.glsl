@@ -226,7 +226,8 @@ bool IsRadianceKnown(FRadianceGrid Grid, uint Slot, uint LeastCount, inout FCell
 	FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[Slot];
 	if (RadianceCellCount(Cell.State) < LeastCount) { return false; }
 	Light = FCellLight(UnpackRgbe(Cell.Light), UnpackMeanDirection(Cell.From));
-	RadianceBefore = UnpackBefore(Cell.GeometricNormal);
+	float Since = float(RadianceTurnsSince(Grid, RadianceCellUpdated(Cell.State)));
+	RadianceBefore = AgeBefore(UnpackBefore(Cell.GeometricNormal), Since, Grid.Moment);
 	return true;
 }
 

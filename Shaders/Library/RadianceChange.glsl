@@ -9,8 +9,12 @@ const uint NormalMask = (1u << ChangeShift) - 1u;
 
 // Light a moment ago over that of now, from 2^-8 to 2^8. U: random, in [0, 1): rounds. 0: the cell is too young to know.
 uint PackBefore(float Ratio, float U) { return uint(clamp(log2(max(Ratio, 1.0e-6)) * 16.0 + 128.0 + U, 1.0, 255.0)) << ChangeShift; }
+const float MostGone = 255.0; // of what light now is
 bool KnowsBefore(uint P) { return P >> ChangeShift != 0u; }
 float UnpackBefore(uint P) { return KnowsBefore(P) ? exp2((float(P >> ChangeShift) - 128.0) / 16.0) : 1.0; }
+
+// Returns what UnpackBefore gives after some frames without an update. Moment: 0: nothing has changed for long.
+float AgeBefore(float Ratio, float Frames, float Moment) { return Moment > 0.0 ? 1.0 + (Ratio - 1.0) * exp(-Frames / Moment) : 1.0; }
 
 const float MostTrend = 1.0;
 

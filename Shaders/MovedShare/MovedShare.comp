@@ -103,7 +103,8 @@ float GetShareOfPaths(FViewConstants View)
 	FPathChange Sum = FPathChange(0.0, 0.0, 0.0);
 	for (int I = 0; I < 9; ++I)
 	{
-		ivec2 Tile = clamp(ivec2(gl_WorkGroupID.xy) + ivec2(I % 3, I / 3) - 1, ivec2(0), Last);
+		ivec2 Tile = ivec2(gl_WorkGroupID.xy) + ivec2(I % 3, I / 3) - 1;
+		if (any(lessThan(Tile, ivec2(0))) || any(greaterThan(Tile, Last))) { continue; }
 		FPathChange Change = FPathChangeRef(Push.Changes).Data[TileIndex(View, uvec2(Tile))];
 		Sum = FPathChange(Sum.Light + Change.Light, Sum.Gone + Change.Gone, Sum.Squares + Change.Squares);
 	}

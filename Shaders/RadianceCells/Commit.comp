@@ -5,7 +5,6 @@
 #include "../Library/RadianceEvents.glsl"
 
 const float LeastWindow = 4.0;    // updates
-const float LeastOfTrend = 2.0;   // updates
 const float NoiseOfTrend = 0.1;   // which a trend has without a change
 const float TrendUpdates = 4.0;   // over which the trend of a cell's light is averaged
 const float LeastLeft = 1.0 / 16; // of a cell's light, with one update: who looks it up learns by what is left how much has gone
@@ -33,7 +32,7 @@ FWindow GetWindow(FRadianceGrid Grid, FRadianceCell Cell, vec3 Light)
 		// The trend before this update: light that chose its own weight would count too much.
 		float Trend = max(abs(UnpackTrend(Cell.Normal)) - NoiseOfTrend, 0.0);
 		float Frames = GetFramesOfChange(Trend, ChangeInCells, Grid.Moment);
-		if (Frames < Window.Frames) { Window = FWindow(Frames, LeastOfTrend); }
+		Window.Frames = min(Window.Frames, Frames);
 	}
 	return Window;
 }
@@ -43,7 +42,7 @@ struct FChange
 	float Before, Now; // luminance of the cell's light
 	float Found, Gone; // luminance of the update's light, and by how much it was more a moment ago
 	float Waited;      // frames since the update before
-	uint Known;        // updates before this one, see RadianceCellCount
+	uint Known, Most;  // updates before this one, see RadianceCellCount, and those that it may average over
 };
 
 // Keeps what the cell remembers of its light a moment ago, and how the light of the cells around changes its own.
@@ -52,7 +51,7 @@ void NoteChange(FRadianceGrid Grid, uint Slot, FChange Change, vec4 U)
 	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 	uint Geometric = Cells.Data[Slot].GeometricNormal, Shading = Cells.Data[Slot].Normal;
 	// What changes has a low count as well, but knows what it was.
-	bool bYoung = Change.Known == 0u || (!KnowsBefore(Geometric) && float(Change.Known) < LeastWindow);
+	bool bYoung = Change.Known == 0u || (!KnowsBefore(Geometric) && Change.Known < min(uint(LeastWindow), Change.Most));
 	float Ratio = 1.0, Trend = 0.0;
 	if (Grid.Moment > 0.0 && !bYoung && Change.Now > 0.0)
 	{
@@ -94,7 +93,7 @@ void main()
 	Moment += (Result.Moment - Moment) / float(Count);
 	Cells.Data[Slot].Light = PackRgbe(max(Mean, vec3(0.0)), U.xyz);
 	float Sum = Luminance(Mean);
-	NoteChange(Grid, Slot, FChange(Luminance(Before), Sum, Luminance(Result.Light), Result.Gone, Waited, Known), U);
+	NoteChange(Grid, Slot, FChange(Luminance(Before), Sum, Luminance(Result.Light), Result.Gone, Waited, Known, Most), U);
 	Cells.Data[Slot].From = PackMeanDirection(Sum > 0.0 ? Moment / Sum : vec3(0.0), U.yzx);
 	const uint Kept = ~((1u << RADIANCE_CELL_ASKED_SHIFT) - 1u) | RADIANCE_CELL_COARSE;
 	Cells.Data[Slot].State = Count | (Grid.Turn << RADIANCE_CELL_UPDATED_SHIFT) | (Cell.State & Kept);

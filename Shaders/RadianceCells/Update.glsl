@@ -35,7 +35,7 @@ FRadianceResult SampleCell(FSceneConstants Scene, FRadianceGrid Grid, FRadianceC
 	FRadianceResult Result = FRadianceResult(vec3(0.0), vec3(0.0), 0.0);
 	FGathered Gathered = Gather(Scene, White, Basis, V, P, Ng, U0.xy, Push.MaxBounces, Random);
 	AddLight(Result, Gathered.Light, Gathered.Direction);
-	Result.Gone = Luminance(Gathered.Light) * Gathered.Gone;
+	Result.Gone = Luminance(Result.Light) * Gathered.Gone; // of what AddLight has taken so far
 	AddLight(Result, Gathered.Emission, Gathered.EmissionDirection);
 #ifdef HAS_SUN
 	AddLight(Result, SampleSun(Scene, White, Basis, V, P, Ng, false, U0.zw), -Scene.SunDirection);

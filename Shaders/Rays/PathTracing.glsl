@@ -455,7 +455,8 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	}
 	Gathered.Light = Sample.Weight * Radiance;
 #ifdef RADIANCE_CELLS
-	Gathered.Gone = Luminance(Radiance) > 0.0 ? LightGone / Luminance(Radiance) : 0.0;
+	float Gone = LightGone / max(Luminance(Radiance), 1.0e-30);
+	Gathered.Gone = isnan(Gone) || isinf(Gone) ? 0.0 : clamp(Gone, -1.0, MostGone);
 #endif
 #ifdef SHARED_PATHS
 	Gathered.Radiance = Radiance;

@@ -109,6 +109,7 @@ void SmoothRadiance(FRadianceGrid Grid, FRadianceQuery Query, float U, inout FCe
 	ivec3 InCell = ToRadianceSteps(Grid, Place) & (Steps - 1);
 	vec2 Part = fract(vec2(InCell[A], InCell[B]) / float(Steps) + 0.5);
 	FCellLight Sum = FCellLight(vec3(0.0), vec3(0.0));
+	float Before = RadianceBefore;
 	for (int I = 0; I < 4; ++I)
 	{
 		vec2 Corner = vec2(I & 1, I >> 1), Weights = mix(1.0 - Part, Part, Corner);
@@ -119,6 +120,7 @@ void SmoothRadiance(FRadianceGrid Grid, FRadianceQuery Query, float U, inout FCe
 		Sum.Irradiance += Weights.x * Weights.y * Light.Irradiance;
 		Sum.From += Weights.x * Weights.y * Light.From;
 	}
+	RadianceBefore = Before; // that of the place's own cell
 	InOutLight = Sum;
 }
 #endif
@@ -223,6 +225,7 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 Loca
 		LookUpRadiance(Grid, Query, Voter, U, Light); // the other side asks for its cell all the same
 		return false;
 	}
+	float BeforeBehind = RadianceBefore, Behind = Luminance(OutLight);
 #endif
 	if (!LookUpRadiance(Grid, Query, Voter, U, Light)) { return false; }
 #ifdef SMOOTH_RADIANCE
@@ -236,6 +239,9 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 Loca
 	}
 #endif
 	OutLight += ReflectCellLight(Light, MakeFrontLobes(Brdf), Hit.Roughness, LocalV, Light.From * Basis);
+#ifdef HAS_DIFFUSE_TRANSMISSION
+	if (Behind > 0.0) { RadianceBefore = mix(RadianceBefore, BeforeBehind, Behind / Luminance(OutLight)); }
+#endif
 	return true;
 }
 

@@ -38,7 +38,7 @@ bool OfferPath(vec3 Start, vec3 Direction, float Distance, vec3 Radiance, float 
 // Near, NearSpecular: see FSharedPath.
 FSharedPath PackSharedPath(vec3 Near, vec3 NearSpecular, inout FRandom Random)
 {
-	uint SkyAndGone = (KeptPath.bSky ? 1u : 0u) | (packHalf2x16(vec2(0.0, clamp(KeptPath.Gone, -1.0, 1000.0))) & 0xffff0000u);
+	uint SkyAndGone = (KeptPath.bSky ? 1u : 0u) | (packHalf2x16(vec2(0.0, KeptPath.Gone)) & 0xffff0000u);
 	return FSharedPath(KeptPath.Hit, SkyAndGone, PackRgbe(KeptPath.Radiance, NextRandom4(Random).xyz), KeptPath.Share,
 	                   PackRgbe(Near, NextRandom4(Random).xyz), PackRgbe(NearSpecular, NextRandom4(Random).xyz));
 }

@@ -36,7 +36,7 @@ protected:
 	struct FAir
 	{
 		glm::dvec3 Mean{0}, Moment{0};
-		double Brightest = 0.0;
+		double Brightest = 0.0, Spread = 0.0; // Spread: standard deviation of froxels, of green
 		uint32_t Froxels = 0;
 	};
 	/// Mean over the froxels whose centre Takes says.
@@ -51,13 +51,24 @@ protected:
 			Air.Mean += glm::dvec3(Volume.GetLight(Froxel));
 			Air.Moment += glm::dvec3(Moments[Volume.GetTexel(Froxel)]);
 			Air.Brightest = std::max(Air.Brightest, double(Volume.GetLight(Froxel).y));
+			Air.Spread += double(Volume.GetLight(Froxel).y) * double(Volume.GetLight(Froxel).y);
 			++Air.Froxels;
 		});
 		Air.Mean /= std::max(Air.Froxels, 1u);
 		Air.Moment /= std::max(Air.Froxels, 1u);
+		Air.Spread = std::sqrt(std::max(Air.Spread / std::max(Air.Froxels, 1u) - Air.Mean.y * Air.Mean.y, 0.0));
 		return Air;
 	}
 
+	/// A black floor under an even sky.
+	void LoadHalfASky(const glm::vec3& Radiance)
+	{
+		FTestScene Scene("floor");
+		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(0)), 1000.0f)}));
+		ASSERT_TRUE(Load(std::move(Scene.Scene)));
+		SetSun(0.0, 0.0f, {0, -1, 0});
+		SetSky(Radiance);
+	}
 	/// A closed box of side 4 around the origin.
 	static FSceneDescription MakeBox(const glm::vec3& Albedo, const glm::vec3& Emission)
 	{
@@ -77,21 +88,57 @@ protected:
 
 TEST_F(FIndirectVolumeTest, HalfOfTheSky)
 {
-	FTestScene Scene("floor");
-	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(0)), 1000.0f)}));
-	ASSERT_TRUE(Load(std::move(Scene.Scene)));
-	SetSun(0.0, 0.0f, {0, -1, 0});
-	SetSky(glm::vec3(2, 1, 0.5));
+	LoadHalfASky(glm::vec3(2, 1, 0.5));
 	const FAir Air = FindAir(LookAt({0, 3, 4}, {0, 1, -4}, 0.8f, 64, 40), [](const glm::dvec3& P) { return P.y > 0.5 && P.y < 4.0; });
 	ASSERT_GT(Air.Froxels, 100u);
-	PrintFigure(fmt::format("half a sky of 2, 1, 0.5: mean {:.4f}, {:.4f}, {:.4f}; moment {:.4f}, {:.4f}, {:.4f}", Air.Mean.x, Air.Mean.y,
-	    Air.Mean.z, Air.Moment.x, Air.Moment.y, Air.Moment.z));
+	PrintFigure(fmt::format("half a sky of 2, 1, 0.5: mean {:.4f}, {:.4f}, {:.4f}; moment {:.4f}, {:.4f}, {:.4f}; spread {:.4f}",
+	    Air.Mean.x, Air.Mean.y, Air.Mean.z, Air.Moment.x, Air.Moment.y, Air.Moment.z, Air.Spread));
 	// Of directions above the floor alone: 1/2 of the light, and 1/2 · 1/2 of its luminance upwards.
 	const double Luminance = 2.0 * 0.2126 + 0.7152 + 0.5 * 0.0722;
 	for (int C = 0; C < 3; ++C) { EXPECT_NEAR(Air.Mean[C] / (0.5 * (C == 0 ? 2.0 : C == 1 ? 1.0 : 0.5)), 1.0, 0.01) << C; }
 	EXPECT_NEAR(Air.Moment.y / (0.25 * Luminance), 1.0, 0.02);
 	EXPECT_NEAR(Air.Moment.x / Luminance, 0.0, 0.005);
 	EXPECT_NEAR(Air.Moment.z / Luminance, 0.0, 0.005);
+	// 120 paths, all of which see the sky or not, would scatter by 0.046 if chance alone drew them.
+	EXPECT_LT(Air.Spread, 0.03);
+}
+
+// Fog that hides all else, seen upwards and downwards.
+TEST_F(FIndirectVolumeTest, FogTakesItsLightByDirection)
+{
+	LoadHalfASky(glm::vec3(1));
+	SetVariable("r.Fog.Density", "2");
+	SetVariable("r.Fog.HeightFalloff", "0");
+	SetVariable("r.Fog.Albedo", "0.8");
+	for (const double G : {0.5, -0.5})
+	{
+		SetVariable("r.Fog.Phase", fmt::format("{}", G).c_str());
+		for (const double Up : {1.0, -1.0})
+		{
+			const FView View = LookAt({0, 5, 0}, {0, 5 + Up, 0.001}, 0.1f, 32, 32);
+			for (uint32_t Frame = 0; Frame < Settled; ++Frame) { RenderLighting(View); }
+			const double Seen = MeanGreen(RenderLighting(View)), Expected = 0.8 * (0.5 + 3.0 * G * 0.25 * Up);
+			PrintFigure(fmt::format("fog under half a sky, g {}, {}: {:.4f} of {:.4f}", G, Up > 0.0 ? "up" : "down", Seen, Expected));
+			EXPECT_NEAR(Seen, Expected, 0.02);
+		}
+	}
+}
+
+TEST_F(FIndirectVolumeTest, TheSameBitsAgainAtAnOddSize)
+{
+	const FView View = LookAt({0, 0, 1.9}, {0, 0, -2}, 1.0f, 131, 73);
+	std::vector<glm::vec3> Lights[2], Moments[2];
+	for (int Run = 0; Run < 2; ++Run)
+	{
+		ASSERT_TRUE(Load(MakeBox(glm::vec3(0.5f), glm::vec3(1.0f))));
+		SetSun(0.0, 0.0f, {0, -1, 0});
+		SetSky(glm::vec3(0));
+		GetEngine().SetFrameIndex(0);
+		Lights[Run] = RenderVolume(View, 6, Moments[Run]).Light;
+	}
+	ASSERT_FALSE(Lights[0].empty());
+	EXPECT_TRUE(Lights[0] == Lights[1]);
+	EXPECT_TRUE(Moments[0] == Moments[1]);
 }
 
 TEST_F(FIndirectVolumeTest, RoomThatShinesByManyBounces)

@@ -306,8 +306,8 @@ struct FRTModuleFog
 /// Indirect light in the air, for fog, particles and translucent surfaces: that of the sky, of what shines, and all that surfaces reflect. The
 /// sun's disk and local lights are not in it. Froxels lie as those of FRTModuleFog do, in a grid of their own. The radiance from a direction D
 /// is about Light * (1 + 3 * dot(Moment, D) / luminance(Light)). D is in a right-handed world with y up, in which FRTModuleWorld says how the
-/// engine's axes lie. Shaders/IndirectVolume/ReadVolume.glsl has the irradiance of a surface, and what fog scatters. Froxels behind what
-/// the picture shows, but for one more slice, keep what they had.
+/// engine's axes lie. Shaders/IndirectVolume/ReadVolume.glsl has the irradiance of a surface, and what fog scatters. Nothing is known behind
+/// what the picture shows, but for one more slice.
 struct FRTModuleIndirectVolume
 {
 	/// RGBA16_FLOAT: mean radiance over all directions, in nits. Null: there are no radiance cells (r.RT.GI 2 or 3, and DiffuseGI in

@@ -19,14 +19,14 @@ TRTConsoleVariable<bool> CVarVolume("r.RT.GI.Volume", true,
     "Finds indirect light in the air, if somebody reads it: an engine's fog, particles and translucent surfaces, or the fog of "
     "r.Fog.Density. With r.RT.GI 2 or 3. If off, that fog takes the sky's light without shadows.");
 TRTConsoleVariable<int32_t> CVarPixelSize("r.RT.GI.Volume.PixelSize", 32,
-    "Width and height of froxels of indirect light, in pixels. The rays grow with the inverse of its square.", {1, 256});
+    "Width and height of froxels of indirect light, in pixels. The rays grow with the inverse of its square.", {8, 256});
 TRTConsoleVariable<int32_t> CVarSlices("r.RT.GI.Volume.Slices", 32,
     "Number of slices of indirect light along the view. Half of them get paths in each frame.", {2, FOG_MOST_SLICES});
 TRTConsoleVariable<float> CVarDistance(
     "r.RT.GI.Volume.Distance", 250.0f, "Distance at which froxels of indirect light end, in metres.", {1, 1e6});
 TRTConsoleVariable<int32_t> CVarSamples(
-    "r.RT.GI.Volume.Samples", 2, "Number of paths of a froxel of indirect light, in every other frame.", {1, 64});
-TRTConsoleVariable<float> CVarHistorySeconds("r.RT.GI.Volume.HistorySeconds", 0.5f,
+    "r.RT.GI.Volume.Samples", 1, "Number of paths of a froxel of indirect light, in every other frame.", {1, 64});
+TRTConsoleVariable<float> CVarHistorySeconds("r.RT.GI.Volume.HistorySeconds", 0.75f,
     "Time, in seconds, after which 90 % of a change of indirect light shows in the air. 0: each frame stands alone.", {0, 10});
 TRTConsoleVariable<bool> CVarMoment(
     "r.RT.Debug.GI.VolumeMoment", true, "Planted fault. Off: indirect light in the air counts as coming evenly from all directions.");
