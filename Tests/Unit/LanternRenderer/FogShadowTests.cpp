@@ -92,33 +92,33 @@ TEST_F(FFogShadowTest, FramesThatAreNotReadMakeNone)
 TEST_F(FFogShadowTest, EachLightHasItsOwnAtlas)
 {
 	LoadAndRender({});
-	EXPECT_FALSE(GetTextures("FogVisibility").empty());
-	EXPECT_TRUE(GetTextures("FogLight").empty()) << "there are no lamps";
+	EXPECT_FALSE(GetTextures("FogShadowVisibility").empty());
+	EXPECT_TRUE(GetTextures("FogShadowLight").empty()) << "there are no lamps";
 	EXPECT_FALSE(HasPass("LightCells"));
 	Open();
 	ASSERT_TRUE(Load({.bSun = false}));
 	AddLamp(true);
 	Mock().ClearCalls();
 	Render();
-	EXPECT_TRUE(GetTextures("FogVisibility").empty()) << "there is no sun";
-	EXPECT_FALSE(GetTextures("FogLight").empty());
+	EXPECT_TRUE(GetTextures("FogShadowVisibility").empty()) << "there is no sun";
+	EXPECT_FALSE(GetTextures("FogShadowLight").empty());
 }
 
 TEST_F(FFogShadowTest, AtlasesTakeWhatTheFroxelsTake)
 {
 	LoadAndRender({});
 	// 40 x 24 pixels: 3 x 2 columns of 16, 8 x 8 slices.
-	for (const FRTMockCall& Call : GetTextures("FogVisibility"))
+	for (const FRTMockCall& Call : GetTextures("FogShadowVisibility"))
 	{
 		EXPECT_EQ(Call.Numbers[0], 24u);
 		EXPECT_EQ(Call.Numbers[1], 16u);
 	}
-	EXPECT_EQ(GetTextures("FogVisibility").size(), 2u) << "this frame's and the last one's";
+	EXPECT_EQ(GetTextures("FogShadowVisibility").size(), 2u) << "this frame's and the last one's";
 	Mock().ClearCalls();
 	Set("r.RT.Fog.Slices", "10");
 	Set("r.RT.Fog.PixelSize", "7");
 	Render();
-	for (const FRTMockCall& Call : GetTextures("FogVisibility"))
+	for (const FRTMockCall& Call : GetTextures("FogShadowVisibility"))
 	{
 		EXPECT_EQ(Call.Numbers[0], 24u); // 6 columns, 4 slices
 		EXPECT_EQ(Call.Numbers[1], 12u); // 4 rows, 3 rows of slices
