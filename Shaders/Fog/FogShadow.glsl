@@ -102,22 +102,8 @@ void LightFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, uint 
 	if (Push.OutLight != NO_TEXTURE) { imageStore(Images[Push.OutLight], Texel, RoundToHalf(vec4(min(Value.Light, vec3(MostFogLight)), 1.0))); }
 }
 
-// Place: as the texels of an atlas of pairs of slices.
-void LightPair(uvec2 Place)
-{
-	uvec2 Size = uvec2(Push.Grid.Columns, Push.Grid.Rows), Tile = Place / Size;
-	uint Pair = Tile.y * Push.Grid.PerRow + Tile.x;
-	if (Tile.x >= Push.Grid.PerRow || 2u * Pair >= Push.Grid.Slices) { return; }
-	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
-	FViewConstants View = FViewRef(Push.Pass.View).Data;
-	ivec2 Column = ivec2(Place % Size);
-	vec2 Counts = texelFetch(Textures[Push.Counts], Column, 0).xy;
-	uint Turn = uint(Counts.x) & 1u, Count = uint(Counts.x) >> 1u;
-	[[dont_unroll]] for (uint I = 0u; I < 2u; ++I)
-	{
-		ivec3 Froxel = ivec3(Column, 2u * Pair + I);
-		if (uint(Froxel.z) < Push.Grid.Slices) { LightFroxel(Scene, View, Froxel, Count, Counts.y, I == Turn); }
-	}
-}
+void BeginPair(FViewConstants View, ivec2 Column, uint Pair) {}
+
+#include "FroxelPairs.glsl"
 
 #endif

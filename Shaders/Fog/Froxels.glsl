@@ -21,6 +21,30 @@ ivec2 FroxelTexel(FFogGrid Grid, ivec3 Froxel)
 	return Froxel.xy + ivec2(Grid.Columns, Grid.Rows) * ivec2(Froxel.z % int(Grid.PerRow), Froxel.z / int(Grid.PerRow));
 }
 
+// Eight froxels around a place, to interpolate between.
+struct FFroxelTaps
+{
+	ivec3 First, Last; // Last: of those that may be read
+	vec3 Fraction;
+};
+
+// Pixel: without jitter. Distance: along the view axis, metres. Surface: that of what the pixel shows; slices behind it are not read.
+FFroxelTaps FindFroxelTaps(FFogGrid Grid, vec2 Pixel, float Distance, float Surface)
+{
+	vec3 Place = vec3(Pixel / float(Grid.PixelSize), FroxelSlice(Grid, Distance)) - 0.5;
+	ivec3 Last = ivec3(Grid.Columns, Grid.Rows, min(uint(FroxelSlice(Grid, min(Surface, Grid.Distance))) + 1u, Grid.Slices)) - 1;
+	return FFroxelTaps(ivec3(floor(Place)), Last, fract(Place));
+}
+
+// Returns the texel of a tap, 0 to 7.
+ivec2 TapTexel(FFogGrid Grid, FFroxelTaps Taps, int Tap, out float Weight)
+{
+	ivec3 Corner = ivec3(Tap & 1, (Tap >> 1) & 1, Tap >> 2);
+	vec3 W = mix(1.0 - Taps.Fraction, Taps.Fraction, bvec3(Corner));
+	Weight = W.x * W.y * W.z;
+	return FroxelTexel(Grid, clamp(Taps.First + Corner, ivec3(0), Taps.Last));
+}
+
 // Offset of the picture that temporal antialiasing adds, in pixels. Froxels stay where they are.
 vec2 PixelJitter(FViewConstants View) { return View.ClipJitter * 0.5 * vec2(View.Width, View.Height); }
 

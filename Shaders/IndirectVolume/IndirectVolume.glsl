@@ -117,25 +117,14 @@ void LightFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, uint 
 	imageStore(Images[Push.OutMoment], Texel, RoundToHalf(vec4(Value.Moment, 0.0)));
 }
 
-// Place: as the texels of an atlas of pairs of slices.
-void LightPair(uvec2 Place)
+// Each column of a pair of slices has a vote.
+void BeginPair(FViewConstants View, ivec2 Column, uint Pair)
 {
-	uvec2 Size = uvec2(Push.Grid.Columns, Push.Grid.Rows), Tile = Place / Size;
-	uint Pair = Tile.y * Push.Grid.PerRow + Tile.x;
-	if (Tile.x >= Push.Grid.PerRow || 2u * Pair >= Push.Grid.Slices) { return; }
-	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
-	FViewConstants View = FViewRef(Push.Pass.View).Data;
-	ivec2 Column = ivec2(Place % Size);
-	vec2 Counts = texelFetch(Textures[Push.Counts], Column, 0).xy;
-	uint Turn = uint(Counts.x) & 1u, Count = uint(Counts.x) >> 1u;
-	uint Voter = (Pair * Size.y + uint(Column.y)) * Size.x + uint(Column.x);
+	uint Voter = (Pair * Push.Grid.Rows + uint(Column.y)) * Push.Grid.Columns + uint(Column.x);
 	BeginRadianceLookUps(Push.RadianceCells, View, FRadianceGridRef(Push.RadianceCells).Data.Votes, Push.FirstVoter + Voter, 3u,
 	                     HashPcg(Voter + HashPcg(View.FrameIndex + View.Seed)));
-	[[dont_unroll]] for (uint I = 0u; I < 2u; ++I)
-	{
-		ivec3 Froxel = ivec3(Column, 2u * Pair + I);
-		if (uint(Froxel.z) < Push.Grid.Slices) { LightFroxel(Scene, View, Froxel, Count, Counts.y, I == Turn); }
-	}
 }
+
+#include "../Fog/FroxelPairs.glsl"
 
 #endif

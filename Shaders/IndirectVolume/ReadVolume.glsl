@@ -16,15 +16,12 @@ struct FAirLight
 // behind it are not read.
 FAirLight SampleIndirectVolume(FFogGrid Grid, uint Light, uint Moment, vec2 Pixel, float Distance, float Surface)
 {
-	ivec3 Last = ivec3(Grid.Columns, Grid.Rows, min(uint(FroxelSlice(Grid, min(Surface, Grid.Distance))) + 1u, Grid.Slices)) - 1;
-	vec3 Place = vec3(Pixel / float(Grid.PixelSize), FroxelSlice(Grid, Distance)) - 0.5, Fraction = fract(Place);
+	FFroxelTaps Taps = FindFroxelTaps(Grid, Pixel, Distance, Surface);
 	FAirLight Sum = FAirLight(vec3(0.0), vec3(0.0));
 	[[dont_unroll]] for (int Tap = 0; Tap < 8; ++Tap)
 	{
-		ivec3 Corner = ivec3(Tap & 1, (Tap >> 1) & 1, Tap >> 2);
-		vec3 W = mix(1.0 - Fraction, Fraction, bvec3(Corner));
-		ivec2 Texel = FroxelTexel(Grid, clamp(ivec3(floor(Place)) + Corner, ivec3(0), Last));
-		float Weight = W.x * W.y * W.z;
+		float Weight;
+		ivec2 Texel = TapTexel(Grid, Taps, Tap, Weight);
 		Sum.Mean += Weight * texelFetch(Textures[Light], Texel, 0).xyz;
 		Sum.Moment += Weight * texelFetch(Textures[Moment], Texel, 0).xyz;
 	}

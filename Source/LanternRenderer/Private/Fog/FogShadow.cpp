@@ -33,12 +33,10 @@ FFroxelSettings GetSettings()
 	    static_cast<uint32_t>(CVarSlices.GetOnRenderThread()), CVarDistance.GetOnRenderThread()};
 }
 
-/// What is traced in time and what is not: two frames pass between a froxel's rays.
 float GetShare(float DeltaSeconds)
 {
 	const double Seconds = CVarDebugHistory.GetOnRenderThread() ? double(CVarHistorySeconds.GetOnRenderThread()) : 60.0;
-	if (Seconds <= 0.0) { return 1.0f; }
-	return static_cast<float>(1.0 - std::pow(0.1, 2.0 * double(DeltaSeconds) / Seconds));
+	return GetFroxelShare(Seconds, DeltaSeconds);
 }
 
 struct FFogPass

@@ -52,6 +52,11 @@ FFogGrid MakeFroxelGrid(const FFroxelSettings& Settings, uint32_t Width, uint32_
 	return Grid;
 }
 
+float GetFroxelShare(double Seconds, float DeltaSeconds)
+{
+	return Seconds > 0.0 ? static_cast<float>(1.0 - std::pow(0.1, 2.0 * double(DeltaSeconds) / Seconds)) : 1.0f;
+}
+
 void AddFroxelDefines(FShaderDefines& InOut)
 {
 	if (!CVarDebugSlice.GetOnRenderThread()) { InOut.emplace_back("FOG_NEXT_SLICE", "1"); }

@@ -38,6 +38,8 @@ struct FFroxelColumns
 FFogGrid MakeFroxelGrid(const FFroxelSettings& Settings, uint32_t Width, uint32_t Height);
 inline uint32_t CountFroxelRows(const FFogGrid& Grid, uint32_t Tiles) { return DivideUp(Tiles, Grid.PerRow) * Grid.Rows; }
 
+/// Returns what is traced in a frame against the history, so that 90 % of a change shows after Seconds: two frames pass between a froxel's rays.
+float GetFroxelShare(double Seconds, float DeltaSeconds);
 /// Adds what shaders that trace from froxels are compiled with.
 void AddFroxelDefines(FShaderDefines& InOut);
 void ListFroxelShaders(const FFroxelSettings& Settings, std::vector<FShaderSource>& Out);

@@ -1,8 +1,6 @@
 // Indirect light in the air: the passes, and their memory from frame to frame.
 #include "IndirectVolume/IndirectVolume.h"
 
-#include <cmath>
-
 #include "Fog/FroxelColumns.h"
 #include "IndirectVolumeTypes.h"
 #include "Lights/LightCells.h"
@@ -71,13 +69,6 @@ bool FindVolume(FFrameContext& Context, FVolumePass& Out)
 	return true;
 }
 
-float GetShare(float DeltaSeconds)
-{
-	const double Seconds = double(CVarHistorySeconds.GetOnRenderThread());
-	// Two frames pass between a froxel's paths.
-	return Seconds > 0.0 ? static_cast<float>(1.0 - std::pow(0.1, 2.0 * double(DeltaSeconds) / Seconds)) : 1.0f;
-}
-
 FIndirectVolumeConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FVolumePass& Volume)
 {
 	const FFroxelColumns& Columns = Volume.Columns;
@@ -96,7 +87,7 @@ FIndirectVolumeConstants MakeConstants(FPassContext& Pass, const FFrameContext& 
 	}
 	C.OutLight = GetStorageIndex(Pass, Volume.Light.Current);
 	C.OutMoment = GetStorageIndex(Pass, Volume.Moment.Current);
-	C.Share = GetShare(Frame.View.DeltaSeconds);
+	C.Share = GetFroxelShare(double(CVarHistorySeconds.GetOnRenderThread()), Frame.View.DeltaSeconds);
 	C.Samples = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
 	C.MaxBounces = BouncesWithoutCell;
 	C.FirstVoter = Volume.Cells->VolumeVoters;
