@@ -9,6 +9,9 @@
 #ifndef HAS_PHASE
 #define HAS_PHASE
 #endif
+#ifndef RADIANCE_CELLS
+#define RADIANCE_CELLS // all paths end in them
+#endif
 #include "../Shared/IndirectVolumeTypes.h"
 #include "../Library/Bindings.glsl"
 
