@@ -7,6 +7,7 @@
 // GUIDED_PATHS: see PathGuide.glsl. Each thread leaves a record of its first path.
 // SCREEN_PROBES: paths start at screen probes instead of pixels.
 // SHARED_PATHS: paths are left for all pixels around, which a pass behind them lights.
+// PATH_RESERVOIRS: these are resampled with what pixels kept from the frame before, see PathReservoirs.glsl.
 // SECOND_LOBE: the paths light the specular lobe as well (ESignal::RoughSpecular).
 // CHECKERBOARD, QUARTER: see Rate.glsl. BruteForce/Fill.comp fills the other pixels.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
@@ -25,6 +26,9 @@
 #endif
 #ifdef SCREEN_PROBES
 #include "../ScreenProbes/Trace.glsl"
+#endif
+#ifdef PATH_RESERVOIRS
+#include "../Rays/PathReservoirs.glsl"
 #endif
 
 layout(push_constant, scalar) uniform FPush { FBruteForceConstants Push; };
@@ -81,6 +85,28 @@ bool FindDeferred(uint Number, out uvec2 OutThread)
 void DeferThread(uvec2 Thread)
 {
 	FThreadListRef(Push.Deferred).Threads[ReserveThreads(Push.Deferred, 1u)] = Thread.y * LaunchWidth() + Thread.x;
+}
+#endif
+
+#ifdef PATH_RESERVOIRS
+// Resamples the path of a pixel. Number: of its thread. Pixels that gather light from behind keep their own.
+void KeepReservoir(FViewConstants View, ivec2 Pixel, float Depth, uint Number)
+{
+	bool bOwn = Depth <= 0.0;
+#ifdef BACK_PIXELS
+	bOwn = bOwn || bGathersBack;
+#endif
+	if (bOwn)
+	{
+		ClearReservoir(Push.Reservoirs, Number);
+		return;
+	}
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+	FRandom Random = MakeRandom(uvec2(Pixel), View.FrameIndex, HashPcg(View.Seed + 0x6a09e667u));
+	vec3 Place = RasterRayOrigin(Scene, View, Point) - View.CameraPosition;
+	uint Flags = GatherMask == MASK_VISIBLE ? 0u : PATH_RESERVOIR_SPHERE;
+	ResampleKeptPath(Scene, View, Push.Reservoirs, Number, Point, Place, Flags, Random);
 }
 #endif
 
@@ -155,6 +181,9 @@ void GatherPaths(uvec2 Thread)
 	uint Number = Thread.y * TurnThreads(uvec2(View.Width, View.Height)).x + Thread.x;
 #ifdef GUIDED_PATHS
 	FPathRecordRef(Push.PathRecords).Data[Number] = PathRecord;
+#endif
+#ifdef PATH_RESERVOIRS
+	KeepReservoir(View, Pixel, Depth, Number);
 #endif
 #ifdef SHARED_PATHS
 	FRandom Random = MakeRandom(uvec2(Pixel), View.FrameIndex, HashPcg(View.Seed + 0x3c6ef372u));

@@ -49,6 +49,11 @@
 #define REFLECTED_ROUGHNESS 1.0 // see EmissionOfRays, for the first lobe of a path
 #endif
 
+#ifdef PATH_RESERVOIRS
+vec3 KeptNormal = vec3(0.0, 0.0, 1.0); // geometric, of what the first ray of a gathered path met
+bool bSameFromAll = true;              // seen from elsewhere, what it met would send the path about as much light
+#endif
+
 uint GatherMask = MASK_VISIBLE; // what the first ray of a gathered path sees. The thread sets it before, see ChooseGatherMask
 
 // ToonPixels: sampled index of what ToonSurface.comp writes; NO_TEXTURE: no object has a style.
@@ -429,6 +434,16 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 #ifdef SHARED_PATHS
 	Gathered.Share = Sample.Weight.x;
 	Gathered.Distance = Hit.Distance;
+#endif
+#ifdef PATH_RESERVOIRS
+	KeptNormal = Hit.GeometricNormal;
+	bSameFromAll = Hit.Distance < 0.0 || Hit.Roughness >= LeastCellRoughness;
+#if defined(HAS_EMISSIVE) && !defined(EMISSIVE_IS_DIRECT) // its weight is that of one pixel's density
+	bSameFromAll = bSameFromAll && (Hit.Distance < 0.0 || Hit.EmissiveWeight <= 0.0);
+#endif
+#ifdef HAS_TRANSMISSION
+	bSameFromAll = bSameFromAll && (Hit.Distance < 0.0 || Hit.Transmission <= 0.0);
+#endif
 #endif
 	if (Hit.Distance < 0.0)
 	{

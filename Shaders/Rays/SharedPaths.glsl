@@ -30,6 +30,9 @@ bool OfferPath(vec3 Start, vec3 Direction, float Distance, vec3 Radiance, float 
 	const float MostLight = 1.0e15;
 	KeptPath.Gone = Gone;
 	if (Distance >= 0.0 && Distance < PathNear) { return false; }
+#ifdef PATH_RESERVOIRS
+	if (!bSameFromAll) { return false; }
+#endif
 	Radiance = mix(clamp(Radiance, vec3(0.0), vec3(MostLight)), vec3(0.0), isnan(Radiance));
 	KeptPath = FKeptPath(Distance < 0.0 ? Direction : Start + Direction * Distance, Distance < 0.0, Radiance, Share, Gone);
 	return true;

@@ -26,8 +26,9 @@ struct FBruteForceConstants
 	uint bHalf;       // pixels are those of the half frame
 	uint BackAlbedo;  // sampled index, for shaders with BACK_PIXELS, which also read BaseColor and Material; NO_TEXTURE: of diffuse light alone
 	uint Pad;
+	FAddress Reservoirs; // FPathReservoirs, for shaders with PATH_RESERVOIRS
 };
-LANTERN_ASSERT_SIZE(FBruteForceConstants, 120);
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 128);
 
 // Of the pass that fills pixels which traced nothing.
 struct FFillConstants

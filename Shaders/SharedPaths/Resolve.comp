@@ -2,6 +2,7 @@
 // all of these pixels together would have drawn it (Bekaert, Sbert & Halton 2002, "Accelerating Path Tracing by Re-Using Paths"). What paths
 // meet is taken to be seen by all of the pixels.
 // CHECKERBOARD, QUARTER: see Rate.glsl. SECOND_LOBE: specular lobes are lit as well.
+// PATH_RESERVOIRS: paths were chosen among many, see PathReservoirs.glsl. Their density is the inverse of their weight.
 // NO_REUSE_COSINE: planted fault (r.RT.Debug.GI.ReuseCosine).
 #version 460
 #include "../Library/BrdfSample.glsl"
@@ -318,7 +319,11 @@ void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffus
 {
 	// Of a lobe for which a path counts. The pixel's own reach 4. Where normals or lobes differ, a few would count for hundreds. Lower limits
 	// lose light: 4 for specular lobes took 0.7 % of the courtyard's.
+#ifdef PATH_RESERVOIRS
+	const float MostShare = 1.0e3, MostSpecularShare = 1.0e3; // a dim path that was chosen stands for many
+#else
 	const float MostShare = 8.0, MostSpecularShare = 16.0;
+#endif
 	ivec2 InTile = ivec2(gl_LocalInvocationID.xy);
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	FSites Found = FindSites(View, InTile, Point);

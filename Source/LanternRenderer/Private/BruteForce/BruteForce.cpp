@@ -118,8 +118,7 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	Paths.RadianceCells = Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, Path) : nullptr;
 	if (First.Has(SharedPathsDefine))
 	{
-		const uint64_t Threads = uint64_t(Paths.Width) * Paths.Height;
-		Paths.Shared = MakeSharedPaths(Context, Rate, First.Has(SecondLobe), First.Has(BackPixelsDefine), Threads);
+		Paths.Shared = MakeSharedPaths(Context, Rate, First.Has(SecondLobe), First.Has(BackPixelsDefine), Paths.Width, Paths.Height);
 	}
 	if (First.Has(GuidedPathsDefine)) { Paths.Guide = MakePathGuide(Context, Rate, uint64_t(Paths.Width) * Paths.Height); }
 	if (Second)
@@ -167,6 +166,7 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 	if (Paths.Guide.IsValid()) { DeclareGuidedPaths(Builder, Paths.Guide); }
 	if (Paths.Probes.IsValid()) { DeclareScreenProbeRays(Builder, Paths.Probes); }
 	if (Paths.Shared.IsValid()) { Builder.Write(Paths.Shared.Fresh, ERTAccess::StorageWrite); }
+	if (Paths.Shared.Reservoirs.IsValid()) { DeclarePathReservoirs(Builder, Paths.Shared.Reservoirs); }
 	if (!Paths.Deferred.IsValid()) { return; }
 	if (bDeferred) { LaunchFromThreadList(Builder, Paths.Deferred); }
 	else { AppendToThreadList(Builder, Paths.Deferred); }
@@ -199,11 +199,13 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.PathRecords = GetAddress(Pass, Paths.Guide.Records);
 	C.ProbeGrid = WriteScreenProbeGrid(Pass, Paths.Probes);
 	C.Shared = GetAddress(Pass, Paths.Shared.Fresh);
+	C.Reservoirs = WritePathReservoirs(Pass, Frame, Paths.Shared.Reservoirs);
 	C.NearPixels = GetNearPixels(Frame);
 	C.ToonPixels = GetSampledIndex(Pass, Paths.Toon);
 	C.bHalf = Frame.bHalf ? 1u : 0u;
 	if (bDeferred) { return TraceThreadList(Pass, Frame, Paths.Second, Paths.Deferred, C, Paths.Width, Paths.Height); }
-	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces));
+	const uint32_t Resampling = Paths.Shared.Reservoirs.IsValid() ? GetMostReservoirRays() : 0;
+	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * (C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces) + Resampling));
 	TraceFirst(Pass, Frame, Paths, C);
 }
 

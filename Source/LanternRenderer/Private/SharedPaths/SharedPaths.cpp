@@ -24,6 +24,7 @@ FShaderSource MakeResolveSource(EPixelRate Rate, bool bSecondLobe, bool bBothSid
 	AddBackPixelsDefine(bBothSides, Defines);
 	AddRateDefine(Rate, Defines);
 	if (bSecondLobe) { Defines.emplace_back("SECOND_LOBE", "1"); }
+	if (AreReservoirsWanted()) { Defines.emplace_back(PathReservoirsDefine, "1"); }
 	if (!CVarReuseCosine.GetOnRenderThread()) { Defines.emplace_back("NO_REUSE_COSINE", "1"); }
 	return MakeComputeSource("SharedPaths/Resolve.comp", std::move(Defines));
 }
@@ -33,14 +34,20 @@ void AddSharedPathShaders(
     const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute)
 {
 	InOutDefines.emplace_back(SharedPathsDefine, "1");
+	if (AreReservoirsWanted()) { AddPathReservoirDefines(InOutDefines); }
 	OutCompute.push_back(MakeResolveSource(Rate, bSecondLobe, Facts.bBackPixels));
 }
 
-FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, bool bBothSides, uint64_t Threads)
+FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, bool bBothSides, uint32_t Width, uint32_t Height)
 {
 	FSharedPaths Shared;
 	Shared.Resolve = RequireCompute(Context, MakeResolveSource(Rate, bSecondLobe, bBothSides));
-	if (Shared.Resolve) { Shared.Fresh = Context.Graph.CreateBuffer({Threads * sizeof(FSharedPath)}, "SharedPaths"); }
+	if (AreReservoirsWanted())
+	{
+		Shared.Reservoirs = MakePathReservoirs(Context, Width, Height);
+		if (!Shared.Reservoirs.IsValid()) { return {}; }
+	}
+	if (Shared.Resolve) { Shared.Fresh = Context.Graph.CreateBuffer({uint64_t(Width) * Height * sizeof(FSharedPath)}, "SharedPaths"); }
 	return Shared;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "PassTools.h"
+#include "PathReservoirs/PathReservoirs.h"
 
 namespace Lantern
 {
@@ -10,7 +11,8 @@ namespace Lantern
 /// Those of one frame.
 struct FSharedPaths
 {
-	FGraphBuffer Fresh; ///< FSharedPath of each thread of the first launch, row by row
+	FGraphBuffer Fresh;                ///< FSharedPath of each thread of the first launch, row by row
+	FPathReservoirsOfFrame Reservoirs; ///< invalid: paths are not resampled
 	IRTPipeline* Resolve = nullptr;
 	bool IsValid() const { return Resolve != nullptr; }
 };
@@ -20,9 +22,9 @@ constexpr const char* SharedPathsDefine = "SHARED_PATHS";
 void AddSharedPathShaders(
     const FSceneFacts& Facts, EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute);
 
-/// Threads: of the first launch. Invalid: shaders are being compiled.
+/// Width, Height: of the first launch, threads. Invalid: shaders are being compiled, or there is no memory.
 /// bBothSides: the first launch has BackPixelsDefine.
-FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, bool bBothSides, uint64_t Threads);
+FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, bool bBothSides, uint32_t Width, uint32_t Height);
 /// Pixels up to which what a path meets is near, and lights the path's own pixel alone.
 float GetNearPixels(const FFrameContext& Context);
 /// Adds the pass that lights pixels by what the paths have found. Second: of the second lobe; invalid: there is none. Returns FPathChange of
