@@ -319,11 +319,7 @@ void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffus
 {
 	// Of a lobe for which a path counts. The pixel's own reach 4. Where normals or lobes differ, a few would count for hundreds. Lower limits
 	// lose light: 4 for specular lobes took 0.7 % of the courtyard's.
-#ifdef PATH_RESERVOIRS
-	const float MostShare = 1.0e3, MostSpecularShare = 1.0e3; // a dim path that was chosen stands for many
-#else
 	const float MostShare = 8.0, MostSpecularShare = 16.0;
-#endif
 	ivec2 InTile = ivec2(gl_LocalInvocationID.xy);
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	FSites Found = FindSites(View, InTile, Point);
@@ -342,6 +338,10 @@ void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffus
 		FSharedPath Path = SitePaths[Found.Numbers[I]];
 		vec3 Direction = (Path.SkyAndGone & 1u) != 0u ? Path.Hit : normalize(Path.Hit - Point.Relative);
 		vec3 Light = UnpackRgbe(Path.Radiance) * Weight;
+#ifdef PATH_RESERVOIRS
+		Light *= Path.Share; // a dim path that was chosen stands for many
+		Path.Share = 1.0;
+#endif
 		float Front;
 		vec3 Gain = GetGain(Found, Receiver, Direction, Front);
 		AddPath(Light * min(Path.Share * Gain, vec3(MostShare)), Weight, Diffuse);
