@@ -139,6 +139,13 @@ TEST_F(FPathReservoirTest, CurvedSurfacesKeepTheirMean)
 	EXPECT_NEAR(Means[1] / Means[0], 1.0, 0.01);
 }
 
+TEST_F(FPathReservoirTest, TheSameBitsAgain)
+{
+	ASSERT_TRUE(Load("sphere:0.5"));
+	SetVariable("r.RT.GI.Reservoirs", "2");
+	ExpectTheSameBitsAgain("sphere:0.5", MakeView(64, 64));
+}
+
 // Paths that were kept bring the light that was. They lose their weight to paths that bring what is.
 TEST_F(FPathReservoirTest, WhatGoesOutLightsNothing)
 {
@@ -150,13 +157,6 @@ TEST_F(FPathReservoirTest, WhatGoesOutLightsNothing)
 	const double Dark = MeanGreen(RenderSignal(ESignal::DiffuseGI, LookAtGrille(), 8, WarmFrames + 8 + 59));
 	PrintFigure(fmt::format("wall, a second behind the sun: {:.5f} of its light", Dark / Lit));
 	EXPECT_LT(Dark, 0.03 * Lit);
-}
-
-TEST_F(FPathReservoirTest, TheSameBitsAgain)
-{
-	ASSERT_TRUE(Load("sphere:0.5"));
-	SetVariable("r.RT.GI.Reservoirs", "2");
-	ExpectTheSameBitsAgain("sphere:0.5", MakeView(64, 64));
 }
 } // namespace
 
