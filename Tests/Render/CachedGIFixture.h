@@ -1,6 +1,9 @@
 // Diffuse GI whose rays end in radiance cells, on small pictures: without a filter, and with a table that suits them.
 #pragma once
 
+#include <cmath>
+#include <vector>
+
 #include "SignalFixture.h"
 
 namespace Lantern
@@ -46,6 +49,32 @@ protected:
 		SetVariable("r.RT.Debug.GI.CellDirection", bDirection ? "1" : "0");
 	}
 	static FView LookAtGlossyWall() { return LookAt({0, 1.5, 3}, {0, 0, -0.5}, 0.5f, 48, 27); }
+
+	/// Mean of each column.
+	static std::vector<double> FindProfile(const FImage& Image)
+	{
+		std::vector<double> Profile;
+		for (uint32_t X = 0; X < Image.Width; ++X)
+		{
+			double Sum = 0;
+			for (uint32_t Y = 0; Y < Image.Height; ++Y) { Sum += double(Image.At(X, Y, 1)); }
+			Profile.push_back(Sum / Image.Height);
+		}
+		return Profile;
+	}
+
+	/// Mean difference between the columns of two pictures, over the mean of the second.
+	static double RelativeError(const FImage& Image, const FImage& Reference)
+	{
+		const std::vector<double> Ours = FindProfile(Image), Theirs = FindProfile(Reference);
+		double Differences = 0, Sum = 0;
+		for (size_t X = 0; X < Ours.size(); ++X)
+		{
+			Differences += std::abs(Ours[X] - Theirs[X]);
+			Sum += Theirs[X];
+		}
+		return Differences / Sum;
+	}
 
 	/// Two runs from empty tables.
 	void ExpectTheSameBitsAgain(const std::string& Scene, const FView& View)

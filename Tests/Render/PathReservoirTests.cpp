@@ -43,23 +43,6 @@ protected:
 	}
 	static FView LookAtGrille() { return LookAt({0.3, 2.2, 0.01}, {0.3, 0, 0}, 0.7f, 64, 64); }
 
-	/// Mean difference between the columns of two pictures, over the mean of the second.
-	static double RelativeError(const FImage& Image, const FImage& Reference)
-	{
-		double Differences = 0, Whole = 0;
-		for (uint32_t X = 0; X < Image.Width; ++X)
-		{
-			double Sum = 0;
-			for (uint32_t Y = 0; Y < Image.Height; ++Y)
-			{
-				Sum += double(Image.At(X, Y, 1)) - double(Reference.At(X, Y, 1));
-				Whole += double(Reference.At(X, Y, 1));
-			}
-			Differences += std::abs(Sum);
-		}
-		return Differences / Whole;
-	}
-
 	/// Mean over pixels of the squared difference, over the mean square of the reference.
 	static double SquaredError(const FImage& Image, const FImage& Reference)
 	{

@@ -22,32 +22,6 @@ protected:
 		SetVariable("r.RT.GI.Rate", "2");
 	}
 
-	/// Mean of each column.
-	static std::vector<double> FindProfile(const FImage& Image)
-	{
-		std::vector<double> Profile;
-		for (uint32_t X = 0; X < Image.Width; ++X)
-		{
-			double Sum = 0;
-			for (uint32_t Y = 0; Y < Image.Height; ++Y) { Sum += double(Image.At(X, Y, 1)); }
-			Profile.push_back(Sum / Image.Height);
-		}
-		return Profile;
-	}
-
-	/// Mean difference between the columns of two pictures, over the mean of the second.
-	static double RelativeError(const FImage& Image, const FImage& Reference)
-	{
-		const std::vector<double> Ours = FindProfile(Image), Theirs = FindProfile(Reference);
-		double Differences = 0, Sum = 0;
-		for (size_t X = 0; X < Ours.size(); ++X)
-		{
-			Differences += std::abs(Ours[X] - Theirs[X]);
-			Sum += Theirs[X];
-		}
-		return Differences / Sum;
-	}
-
 	/// A floor of ridges, 4 degrees to either side, and a wall beside it.
 	static FSceneDescription MakeRidges()
 	{
