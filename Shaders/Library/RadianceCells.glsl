@@ -26,6 +26,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceRes
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceCountersRef { FRadianceCellCounters Data; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceStatisticsRef { FRadianceCellStatistics Data; };
 
+// Returns the updates that a round of this frame has.
+uint CountListed(FRadianceGrid Grid, uint Round) { return min(FRadianceCountersRef(Grid.Counters).Data.Listed[Round], Grid.Room); }
+
+const uint LivelySlot = 0x80000000u; // in an entry of a list: its light changes
+
+// Returns where the list of a round has an entry.
+uint PlaceInList(uint Round, uint Number) { return (Round & 1u) * RADIANCE_CELL_MOST_UPDATES + Number; }
+
 // Position: relative to the scene's origin, metres, nearer than 260 km.
 ivec3 ToRadianceSteps(FRadianceGrid Grid, vec3 Position) { return Grid.Origin + ivec3(floor(Position * LIGHT_POSITION_STEPS)); }
 

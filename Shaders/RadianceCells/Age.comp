@@ -14,16 +14,16 @@ void main()
 	if (Slot < GetSlotCount(Grid) && Keys.Data[Slot] != 0u)
 	{
 		FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
-		uint State = Cells.Data[Slot].State;
+		FRadianceCell Cell = Cells.Data[Slot];
 		Cells.Data[Slot].Vote = 0u;
-		if (Keys.Data[Slot] == LostKey || RadianceTurnsSince(Grid, RadianceCellAsked(State)) > Grid.Life)
+		if (Keys.Data[Slot] == LostKey || RadianceTurnsSince(Grid, RadianceCellAsked(Cell.State)) > Grid.Life)
 		{
 			Keys.Data[Slot] = 0u;
 			Cells.Data[Slot].State = 0u;
 			Cells.Data[Slot].Light = 0u;
 			Cells.Data[Slot].From = 0u;
 		}
-		else { atomicAdd(Bins[GetBin(Grid, State)], 1u); }
+		else { atomicAdd(Bins[GetBin(Grid, Cell)], 1u); }
 	}
 	barrier();
 	if (Lane < RADIANCE_CELL_BINS && Bins[Lane] > 0u)

@@ -5,6 +5,7 @@
 #include "../Library/RadianceEvents.glsl"
 
 const float LeastWindow = 4.0;    // updates
+const float LivelyUpdates = 32.0; // that a cell has at least within the frames that it averages over, if there are rounds enough
 const float NoiseOfTrend = 0.1;   // which a trend has without a change
 const float TrendUpdates = 4.0;   // over which the trend of a cell's light is averaged
 const float LeastLeft = 1.0 / 16; // of a cell's light, with one update: who looks it up learns by what is left how much has gone
@@ -66,23 +67,33 @@ void NoteChange(FRadianceGrid Grid, uint Slot, FChange Change, vec4 U)
 	Cells.Data[Slot].Normal = (Shading & NormalMask) | PackTrend(Trend, U.x);
 }
 
+void CountUpdates(FRadianceGrid Grid, uint Updated)
+{
+	FRadianceStatisticsRef Statistics = FRadianceStatisticsRef(Grid.Statistics);
+	Statistics.Data.Updated = Updated + (Push.Round > 0u ? Statistics.Data.Updated : 0u);
+}
+
 void main()
 {
 	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
 	uint Number = GetThread();
-	uint Updated = min(FRadianceCountersRef(Grid.Counters).Data.Listed, Grid.Room);
-	if (Number == 0u && Grid.Statistics != FAddress(0)) { FRadianceStatisticsRef(Grid.Statistics).Data.Updated = Updated; }
+	uint Updated = CountListed(Grid, Push.Round);
+	if (Number == 0u && Grid.Statistics != FAddress(0)) { CountUpdates(Grid, Updated); }
 	if (Number >= Updated) { return; }
-	uint Slot = FRadianceWordRef(Grid.List).Data[Number];
+	uint Entry = PlaceInList(Push.Round, Number), Slot = FRadianceWordRef(Grid.List).Data[Entry];
 	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 	FRadianceCell Cell = Cells.Data[Slot];
 	// The window is one of time: a cell that waits for its turn averages over fewer samples.
-	float Waited = float(max(RadianceTurnsSince(Grid, RadianceCellUpdated(Cell.State)), 1u));
+	float Waited = Push.Round == 0u ? float(max(RadianceTurnsSince(Grid, RadianceCellUpdated(Cell.State)), 1u)) : 0.0;
 	FRadianceResult Result = FRadianceResultRef(Grid.Results).Data[Number];
 	FWindow Window = GetWindow(Grid, Cell, Result.Light);
-	uint Most = uint(clamp(Window.Frames / Waited, Window.Least, float(RADIANCE_CELL_COUNT_MASK)));
+	float Rounds = clamp(LivelyUpdates / Window.Frames, 1.0, float(max(Grid.Rounds, 1u)));
+	// Later rounds know more: with a window of one frame, the mean is that of the last half of them.
+	float OfThisFrame = float((Push.Round + 2u) / 2u);
+	float Updates = (Window.Frames / max(Waited, 1.0) - 1.0) * Rounds + OfThisFrame;
+	uint Most = uint(clamp(Updates, Window.Least, float(RADIANCE_CELL_COUNT_MASK)));
 	uint Known = RadianceCellCount(Cell.State);
-	vec4 U = vec4(HashPcg4(uvec4(RadianceSeed(Grid, Cell), Grid.Turn, Known, 0x51ed270bu)) >> 8u) * (1.0 / 16777216.0);
+	vec4 U = vec4(HashPcg4(uvec4(RadianceSeed(Grid, Cell), Grid.Turn, Known, 0x51ed270bu + Push.Round)) >> 8u) * (1.0 / 16777216.0);
 	// The first updates know too little of what comes by many surfaces. A cell averages over this part of its age.
 	bool bGrows = float(Known) < LeastWindow || U.w * 6.0 < 1.0;
 	uint Count = clamp(Known + (bGrows ? 1u : 0u), 1u, Most);
@@ -95,6 +106,11 @@ void main()
 	float Sum = Luminance(Mean);
 	NoteChange(Grid, Slot, FChange(Luminance(Before), Sum, Luminance(Result.Light), Result.Gone, Waited, Known, Most), U);
 	Cells.Data[Slot].From = PackMeanDirection(Sum > 0.0 ? Moment / Sum : vec3(0.0), U.yzx);
+	if (Push.Round + 1u < uint(ceil(Rounds)))
+	{
+		FRadianceWordRef(Grid.List).Data[Entry] = Slot | LivelySlot;
+		atomicAdd(FRadianceCountersRef(Grid.Counters).Data.Lively[Push.Round], 1u);
+	}
 	const uint Kept = ~((1u << RADIANCE_CELL_ASKED_SHIFT) - 1u) | RADIANCE_CELL_COARSE;
 	Cells.Data[Slot].State = Count | (Grid.Turn << RADIANCE_CELL_UPDATED_SHIFT) | (Cell.State & Kept);
 }

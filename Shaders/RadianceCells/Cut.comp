@@ -22,7 +22,7 @@ void main()
 		Sum += Count;
 		Young += Bin < YoungBins ? Count : 0u;
 	}
-	Counters.Data.Listed = 0u;
+	for (uint Round = 0u; Round < RADIANCE_CELL_MOST_ROUNDS; ++Round) { Counters.Data.Listed[Round] = Counters.Data.Lively[Round] = 0u; }
 	Counters.Data.Cutoff = Cutoff;
 	Counters.Data.Share = Share;
 	if (Grid.Statistics == FAddress(0)) { return; }

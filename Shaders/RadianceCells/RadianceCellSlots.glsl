@@ -14,20 +14,26 @@ uint GetSlotCount(FRadianceGrid Grid) { return (Grid.BucketMask + 1u) * RADIANCE
 const uint YoungBins = 6u;    // of coarse cells, and of fine ones that know little
 const uint YoungCoarse = 9u; // count, from about 30 updates, up to which a coarse cell, which stands in for many, comes first
 
+const uint LivelyBin = YoungBins; // of cells whose light changes
+const float LivelyTrend = 0.1;    // see UnpackTrend
+
 // Returns the bin of cells that have waited for so many frames.
 uint GetBinOfWait(uint Frames)
 {
-	const uint Longest = RADIANCE_CELL_BINS - 1u - YoungBins;
-	return YoungBins + Longest - min(Frames, Longest);
+	const uint Longest = RADIANCE_CELL_BINS - 2u - LivelyBin;
+	return LivelyBin + 1u + Longest - min(Frames, Longest);
 }
 
-// Bins in order of urgency: cells that know little, then those that have waited longest. The last one is never updated.
-uint GetBin(FRadianceGrid Grid, uint State)
+// Bins in order of urgency: cells that know little, those whose light changes, then those that have waited longest. The last one is never
+// updated.
+uint GetBin(FRadianceGrid Grid, FRadianceCell Cell)
 {
+	uint State = Cell.State;
 	uint Count = RadianceCellCount(State);
 	bool bCoarse = (State & RADIANCE_CELL_COARSE) != 0u;
 	if (Count > 0u && RadianceTurnsSince(Grid, RadianceCellAsked(State)) > Grid.AskedTurns) { return RADIANCE_CELL_BINS - 1u; }
 	if (bCoarse && Count < YoungCoarse) { return 0u; }
 	if (Count + 1u < YoungBins) { return Count + 1u; }
+	if (Grid.Rounds > 1u && abs(UnpackTrend(Cell.Normal)) > LivelyTrend) { return LivelyBin; }
 	return GetBinOfWait(RadianceTurnsSince(Grid, RadianceCellUpdated(State)));
 }

@@ -53,14 +53,15 @@ void UpdateCell(uint Number)
 {
 	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
 	if (Number >= RADIANCE_CELL_MOST_UPDATES) { return; }
-	FRadianceVoteRef(Grid.UpdateVotes).Data[Number].Slot = NO_RADIANCE_CELL;
-	if (Number >= min(FRadianceCountersRef(Grid.Counters).Data.Listed, Grid.Room)) { return; }
+	bool bVotes = Push.Round == 0u; // there is a place for one vote
+	if (bVotes) { FRadianceVoteRef(Grid.UpdateVotes).Data[Number].Slot = NO_RADIANCE_CELL; }
+	if (Number >= CountListed(Grid, Push.Round)) { return; }
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
-	FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[FRadianceWordRef(Grid.List).Data[Number]];
-	uint Seed = RadianceSeed(Grid, Cell);
+	FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[FRadianceWordRef(Grid.List).Data[PlaceInList(Push.Round, Number)]];
+	uint Seed = RadianceSeed(Grid, Cell) + Push.Round * 0x9e3779b9u;
 	FRandom Random = MakeRandom(uvec2(Seed & 0xffffu, Seed >> 16u), View.FrameIndex, HashPcg(View.Seed + 0x2545f491u));
-	BeginRadianceLookUps(Push.Grid, View, Grid.UpdateVotes, Number, 2u, HashPcg(Seed ^ HashPcg(View.FrameIndex)));
+	BeginRadianceLookUps(Push.Grid, View, bVotes ? Grid.UpdateVotes : FAddress(0), Number, 2u, HashPcg(Seed ^ HashPcg(View.FrameIndex)));
 	FRadianceResultRef(Grid.Results).Data[Number] = SampleCell(Scene, Grid, Cell, Random);
 }
 

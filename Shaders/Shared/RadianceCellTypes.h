@@ -14,6 +14,7 @@ LANTERN_SHARED_BEGIN
 #define RADIANCE_CELL_FINEST_SHIFT 10u // log2 of its LIGHT_POSITION_STEPS
 #define RADIANCE_CELL_BINS 64u        // of priority
 #define RADIANCE_CELL_MOST_UPDATES 65536u // in a frame
+#define RADIANCE_CELL_MOST_ROUNDS 8u // of updates in a frame
 #define RADIANCE_CELL_ROW 1024u       // updates in a row of their launch
 #define RADIANCE_CELL_GROUP_SIZE 256u
 #define RADIANCE_CELL_UPDATE_GROUP 64u // updates of a work group of the ray-query path
@@ -79,20 +80,20 @@ LANTERN_ASSERT_SIZE(FRadianceEvent, 24);
 
 struct FRadianceCellCounters
 {
-	uint Listed; // cells that this frame updates
+	uint Listed[RADIANCE_CELL_MOST_ROUNDS]; // cells that each round of the frame updates
+	uint Lively[RADIANCE_CELL_MOST_ROUNDS]; // of these, such as are worth another round
 	uint Cutoff; // bin of priority of which only a share is listed; those before it are listed wholly
 	float Share;
-	uint Pad;
 	uint Bins[RADIANCE_CELL_BINS]; // cells by priority
 };
-LANTERN_ASSERT_SIZE(FRadianceCellCounters, 272);
+LANTERN_ASSERT_SIZE(FRadianceCellCounters, 328);
 
 // What a frame did with the table, in this order (r.RT.GI.Cells.Count). Look-ups are those of pixels and of updates.
 struct FRadianceCellStatistics
 {
 	uint Live;    // cells in use
 	uint Young;   // of these, such as have had few updates and come before all others
-	uint Updated; // cells
+	uint Updated; // updates, of all rounds
 	uint Full;    // votes for a cell that found no room at its level
 	uint Found;   // look-ups that ended in the cell of their place
 	uint Coarse;  // that ended in a coarse one instead
@@ -125,7 +126,7 @@ struct FRadianceGrid
 	FAddress Cells;       // FRadianceCell[]
 	FAddress Votes;       // FRadianceVote[VoteCount]
 	FAddress UpdateVotes; // FRadianceVote[RADIANCE_CELL_MOST_UPDATES]: of updates, which count in the next frame
-	FAddress List;        // uint[RADIANCE_CELL_MOST_UPDATES]: slots to update
+	FAddress List;        // uint[2][RADIANCE_CELL_MOST_UPDATES]: slots to update, of even rounds and of odd ones
 	FAddress Results;     // FRadianceResult[RADIANCE_CELL_MOST_UPDATES]
 	FAddress Counters;    // FRadianceCellCounters
 	ivec3 Origin;         // of the scene, as FLightGrid::Origin
@@ -150,8 +151,10 @@ struct FRadianceGrid
 	FAddress Audit;       // FRadianceAuditPath[RADIANCE_AUDIT_PATHS], zero before; 0: no path is followed for it
 	float FollowChance;   // with which a pixel's paths are followed to correct what cells answer, with Audit
 	float Moment;         // frames by which what a cell remembers of its light lags behind it; 0: nothing has changed for long
+	uint Rounds;          // in which this frame updates cells whose light changes, up to RADIANCE_CELL_MOST_ROUNDS
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FRadianceGrid, 176);
+LANTERN_ASSERT_SIZE(FRadianceGrid, 184);
 
 // Constants of the passes that keep the table.
 struct FRadianceCellConstants
@@ -159,7 +162,7 @@ struct FRadianceCellConstants
 	FPassConstants Pass;
 	FAddress Grid; // FRadianceGrid
 	uint MaxBounces; // of paths that meet no cell
-	uint Pad;
+	uint Round;      // of this frame's updates
 };
 LANTERN_ASSERT_SIZE(FRadianceCellConstants, 32);
 

@@ -139,6 +139,7 @@ TEST_F(FRadianceCellsTest, WhatNobodyAsksForWaits)
 {
 	SetVariable("r.RT.GI.Cells.Count", "1");
 	SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "10000000");
+	SetVariable("r.RT.GI.Cells.Rounds", "1"); // counts are those of all rounds
 	for (const bool bAskedFirst : {true, false})
 	{
 		SetVariable("r.RT.Debug.GI.AskedFirst", bAskedFirst ? "1" : "0");

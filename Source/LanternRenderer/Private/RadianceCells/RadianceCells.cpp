@@ -50,6 +50,11 @@ TRTConsoleVariable<bool> CVarChange("r.RT.GI.Cells.Change", true,
     "Radiance cells pass on that their light changes, to cells and pixels that look them up, while the scene changes and two seconds "
     "after.");
 
+TRTConsoleVariable<int32_t> CVarRounds("r.RT.GI.Cells.Rounds", 4,
+    "Rounds in which a frame updates radiance cells whose light changes. Light goes one surface further in each. The budget of updates is "
+    "that of the frame.",
+    {1, RADIANCE_CELL_MOST_ROUNDS});
+
 constexpr float LifeSeconds = 2.0f;
 constexpr float PartInMoment = 0.25f;                                 // of the time that a cell averages over, see FRadianceGrid::Moment
 constexpr float RestChance = 0.5f;                                    // once cells are there
@@ -73,14 +78,14 @@ struct FRadianceTable
 struct FRadianceWork
 {
 	static constexpr uint64_t List = 0;
-	static constexpr uint64_t Results = List + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(uint32_t);
+	static constexpr uint64_t Results = List + 2 * uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(uint32_t);
 	static constexpr uint64_t Votes = Results + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(FRadianceResult);
 	static uint64_t GetSize(uint32_t VoteCount) { return Votes + uint64_t(VoteCount) * sizeof(FRadianceVote); }
 };
 
 FShaderSource MakeSource(const char* Name) { return MakeComputeSource(std::string("RadianceCells/") + Name + ".comp"); }
 
-constexpr const char* SourceNames[] = {"Votes", "Age", "Cut", "List", "Commit"};
+constexpr const char* SourceNames[] = {"Votes", "Age", "Cut", "List", "ListAgain", "Commit"};
 
 bool AreReady(const FFrameContext& Context)
 {
@@ -142,6 +147,8 @@ void SetChanges(FFrameContext& Context, const FRadianceEvents::FFound& Events, u
 	const bool bChanges = bOld && (Movers.Count > 0 || !Events.Lamps.empty() || bSun);
 	const bool bLately = Context.RadianceEvents->HasChangedLately(bChanges);
 	Grid.Moment = bLately && CVarChange.GetOnRenderThread() ? PartInMoment * Seconds / Delta : 0.0f;
+	const bool bYoung = static_cast<float>(Age) * Delta < static_cast<float>(FRadianceEvents::LivelySeconds);
+	Grid.Rounds = bLately || bYoung ? static_cast<uint32_t>(CVarRounds.GetOnRenderThread()) : 1;
 }
 
 std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
@@ -200,12 +207,13 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 	return Cells;
 }
 
-FRadianceCellConstants MakeConstants(const FFrameContext& Frame, const FRadianceCells& Cells)
+FRadianceCellConstants MakeConstants(const FFrameContext& Frame, const FRadianceCells& Cells, uint32_t Round)
 {
 	FRadianceCellConstants C{};
 	C.Pass = Frame.Pass;
 	C.Grid = Cells.GridData.Address;
 	C.MaxBounces = MaxBounces;
+	C.Round = Round;
 	return C;
 }
 
@@ -219,15 +227,17 @@ void Declare(FPassBuilder& Builder, const FRadianceCells& Cells)
 	Builder.AllowAsync();
 }
 
-void AddComputePass(FFrameContext& Context, const std::shared_ptr<const FRadianceCells>& Cells, const char* Name, uint32_t Threads)
+void AddComputePass(
+    FFrameContext& Context, const std::shared_ptr<const FRadianceCells>& Cells, const char* Name, uint32_t Threads, uint32_t Round = 0)
 {
 	const FFrameContext* const Frame = &Context;
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource(Name));
-	Context.Graph.AddPass(("RadianceCells" + std::string(Name)).c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+	const std::string PassName = "RadianceCells" + std::string(Name) + (Round > 0 ? std::to_string(Round) : "");
+	Context.Graph.AddPass(PassName.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Declare(Builder, *Cells);
 		Context.Tokens.LeaveAlone(Builder);
 		return [=](FPassContext& Pass) {
-			const FRadianceCellConstants C = MakeConstants(*Frame, *Cells);
+			const FRadianceCellConstants C = MakeConstants(*Frame, *Cells, Round);
 			const uint32_t Groups = DivideUp(Threads, RADIANCE_CELL_GROUP_SIZE);
 			Pass.Commands().SetPipeline(Pipeline);
 			Pass.Commands().PushConstants(&C, sizeof(C));
@@ -237,18 +247,19 @@ void AddComputePass(FFrameContext& Context, const std::shared_ptr<const FRadianc
 }
 
 void AddUpdatePass(FFrameContext& Context, const FGBuffer& GBuffer, const std::shared_ptr<const FRadianceCells>& Cells,
-    const FRayDispatch& Dispatch, const FBesideUpdates& Beside)
+    const FRayDispatch& Dispatch, const FBesideUpdates& Beside, uint32_t Round = 0)
 {
 	const FFrameContext* const Frame = &Context;
 	const FLightCellsOfFrame& LightCells = RequireLightCells(Context, GBuffer);
-	Context.Graph.AddPass(("RadianceCellsUpdateAnd" + Beside.Pass).c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+	const std::string Name = Round == 0 ? "And" + Beside.Pass : std::to_string(Round);
+	Context.Graph.AddPass(("RadianceCellsUpdate" + Name).c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Declare(Builder, *Cells);
 		ReadLightCells(Builder, LightCells, true);
 		if (Beside.Declare) { Beside.Declare(Builder); }
 		return [=, Record = Beside.Record](FPassContext& Pass) {
 			if (Record) { Record(Pass); } // without a barrier between
-			Pass.CountRays(uint64_t(Cells->Grid.Budget) * GetMaxPathRays(Frame->Facts, 1));
-			const FRadianceCellConstants C = MakeConstants(*Frame, *Cells);
+			if (Round == 0) { Pass.CountRays(uint64_t(Cells->Grid.Budget) * GetMaxPathRays(Frame->Facts, 1)); }
+			const FRadianceCellConstants C = MakeConstants(*Frame, *Cells, Round);
 			const uint32_t Rows = Cells->Grid.Room / RADIANCE_CELL_ROW;
 			if (!Dispatch.Compute) { return TraceFrameRays(Pass, *Frame, Dispatch.RayGen, C, RADIANCE_CELL_ROW, Rows); }
 			Pass.Commands().SetPipeline(Dispatch.Compute);
@@ -346,6 +357,12 @@ bool AddRadianceCellPasses(FFrameContext& Context, const FGBuffer& GBuffer, ERay
 	AddComputePass(Context, Cells, "List", Cells->Slots);
 	AddUpdatePass(Context, GBuffer, Cells, *Dispatch, Beside);
 	AddComputePass(Context, Cells, "Commit", RADIANCE_CELL_MOST_UPDATES);
+	for (uint32_t Round = 1; Round < Cells->Grid.Rounds; ++Round)
+	{
+		AddComputePass(Context, Cells, "ListAgain", RADIANCE_CELL_MOST_UPDATES, Round);
+		AddUpdatePass(Context, GBuffer, Cells, *Dispatch, {}, Round);
+		AddComputePass(Context, Cells, "Commit", RADIANCE_CELL_MOST_UPDATES, Round);
+	}
 	return true;
 }
 

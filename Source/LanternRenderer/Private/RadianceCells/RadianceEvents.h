@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -47,6 +48,7 @@ public:
 	static constexpr double LivelySeconds = 2.0; ///< light goes from cell to cell for so long after a change
 
 private:
+	static constexpr double Never = -std::numeric_limits<double>::infinity();
 	struct FLight
 	{
 		uint64_t Scene = 0; ///< identity
@@ -79,7 +81,7 @@ private:
 	std::vector<FEvent> Kept, Fresh; ///< of frames before, and of this one
 	FLampEvents KeptLamps, FreshLamps;
 	double Time = 0.0; ///< of the view's submitted frames, seconds
-	double ChangedAt = -LivelySeconds;
+	double ChangedAt = Never;
 	double Delta = 0.0;
 	uint32_t Frames = 0;
 };
