@@ -87,7 +87,9 @@ void main()
 	float Waited = Push.Round == 0u ? float(max(RadianceTurnsSince(Grid, RadianceCellUpdated(Cell.State)), 1u)) : 0.0;
 	FRadianceResult Result = FRadianceResultRef(Grid.Results).Data[Number];
 	FWindow Window = GetWindow(Grid, Cell, Result.Light);
-	float Rounds = clamp(LivelyUpdates / Window.Frames, 1.0, float(max(Grid.Rounds, 1u)));
+	float Wanted = clamp(LivelyUpdates / Window.Frames, 1.0, float(max(Grid.Rounds, 1u)));
+	// Where the budget does not suffice, a mean over as many updates would be one over a longer time.
+	float Rounds = min(Wanted, 1.0 + FRadianceCountersRef(Grid.Counters).Data.Further);
 	// Later rounds know more: with a window of one frame, the mean is that of the last half of them.
 	float OfThisFrame = float((Push.Round + 2u) / 2u);
 	float Updates = (Window.Frames / max(Waited, 1.0) - 1.0) * Rounds + OfThisFrame;
@@ -106,7 +108,7 @@ void main()
 	float Sum = Luminance(Mean);
 	NoteChange(Grid, Slot, FChange(Luminance(Before), Sum, Luminance(Result.Light), Result.Gone, Waited, Known, Most), U);
 	Cells.Data[Slot].From = PackMeanDirection(Sum > 0.0 ? Moment / Sum : vec3(0.0), U.yzx);
-	if (Push.Round + 1u < uint(ceil(Rounds)))
+	if (Push.Round + 1u < uint(ceil(Wanted)))
 	{
 		FRadianceWordRef(Grid.List).Data[Entry] = Slot | LivelySlot;
 		atomicAdd(FRadianceCountersRef(Grid.Counters).Data.Lively[Push.Round], 1u);

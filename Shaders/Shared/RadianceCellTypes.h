@@ -84,9 +84,10 @@ struct FRadianceCellCounters
 	uint Lively[RADIANCE_CELL_MOST_ROUNDS]; // of these, such as are worth another round
 	uint Cutoff; // bin of priority of which only a share is listed; those before it are listed wholly
 	float Share;
+	float Further; // updates that lively cells had in the frame before behind the first round, mean
 	uint Bins[RADIANCE_CELL_BINS]; // cells by priority
 };
-LANTERN_ASSERT_SIZE(FRadianceCellCounters, 328);
+LANTERN_ASSERT_SIZE(FRadianceCellCounters, 332);
 
 // What a frame did with the table, in this order (r.RT.GI.Cells.Count). Look-ups are those of pixels and of updates.
 struct FRadianceCellStatistics
