@@ -94,8 +94,7 @@ TEST_F(FRadianceChangeTest, LightGoesSeveralSurfacesFurtherInAFrame)
 
 TEST_F(FRadianceChangeTest, SameBitsAgain)
 {
-	ASSERT_TRUE(Load("stability-door"));
-	RenderSignal(ESignal::DiffuseGI, LookFarFromDoor(), 1); // passes whose shaders are being compiled are left out of a first frame
+	PlayDoor(true, 4); // shaders are then there, and both others come behind the same changes
 	const FPlayed First = PlayDoor(true, 4), Second = PlayDoor(true, 4);
 	ASSERT_GT(MeanGreen(First.Left), 0.0);
 	EXPECT_EQ(FractionDiffering(First.Left, Second.Left, 0.0), 0.0);

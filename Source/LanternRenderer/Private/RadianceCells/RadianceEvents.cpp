@@ -121,12 +121,6 @@ FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, const glm::dvec3&
 	Fresh.clear();
 	FreshLamps.clear();
 	FFound Found;
-	if (Last.Scene != Next.Scene)
-	{
-		Kept.clear();
-		KeptLamps.clear();
-		ChangedAt = Never;
-	}
 	if (!Last.bValid || Last.Scene != Next.Scene || !CVarEvents.GetOnRenderThread()) { return Found; }
 	const bool bSun = glm::length(Next.Sun) > 0.0f || glm::length(Last.Sun) > 0.0f;
 	const double Window = GetWindow(bSun ? Last.SunDirection : Next.SunDirection, Next.SunDirection,

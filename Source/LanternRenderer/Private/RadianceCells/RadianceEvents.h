@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <map>
 #include <vector>
 
@@ -48,7 +47,6 @@ public:
 	static constexpr double LivelySeconds = 2.0; ///< light goes from cell to cell for so long after a change
 
 private:
-	static constexpr double Never = -std::numeric_limits<double>::infinity();
 	struct FLight
 	{
 		uint64_t Scene = 0; ///< identity
@@ -81,7 +79,7 @@ private:
 	std::vector<FEvent> Kept, Fresh; ///< of frames before, and of this one
 	FLampEvents KeptLamps, FreshLamps;
 	double Time = 0.0; ///< of the view's submitted frames, seconds
-	double ChangedAt = Never;
+	double ChangedAt = -LivelySeconds;
 	double Delta = 0.0;
 	uint32_t Frames = 0;
 };
