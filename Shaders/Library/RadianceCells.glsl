@@ -29,7 +29,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceSta
 // Returns the updates that a round of this frame has.
 uint CountListed(FRadianceGrid Grid, uint Round) { return min(FRadianceCountersRef(Grid.Counters).Data.Listed[Round], Grid.Room); }
 
-const uint LivelySlot = 0x80000000u; // in an entry of a list: its light changes
+const uint LivelySlot = 0x80000000u; // in an entry of a list: the cell is worth another round
 
 // Returns where the list of a round has an entry.
 uint PlaceInList(uint Round, uint Number) { return (Round & 1u) * RADIANCE_CELL_MOST_UPDATES + Number; }

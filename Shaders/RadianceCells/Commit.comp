@@ -1,4 +1,4 @@
-// Takes the samples of this frame's updates into the means of their cells.
+// Takes the samples of a round's updates into the means of their cells.
 #version 460
 #include "RadianceCellSlots.glsl"
 #include "../Library/MovedShare.glsl"
@@ -6,7 +6,6 @@
 
 const float LeastWindow = 4.0;    // updates
 const float LivelyUpdates = 32.0; // that a cell has at least within the frames that it averages over, if there are rounds enough
-const float NoiseOfTrend = 0.1;   // which a trend has without a change
 const float TrendUpdates = 4.0;   // over which the trend of a cell's light is averaged
 const float LeastLeft = 1.0 / 16; // of a cell's light, with one update: who looks it up learns by what is left how much has gone
 
@@ -87,7 +86,7 @@ void main()
 	float Waited = Push.Round == 0u ? float(max(RadianceTurnsSince(Grid, RadianceCellUpdated(Cell.State)), 1u)) : 0.0;
 	FRadianceResult Result = FRadianceResultRef(Grid.Results).Data[Number];
 	FWindow Window = GetWindow(Grid, Cell, Result.Light);
-	float Wanted = clamp(LivelyUpdates / Window.Frames, 1.0, float(max(Grid.Rounds, 1u)));
+	float Wanted = clamp(LivelyUpdates / Window.Frames, 1.0, float(Grid.Rounds));
 	// Where the budget does not suffice, a mean over as many updates would be one over a longer time.
 	float Rounds = min(Wanted, 1.0 + FRadianceCountersRef(Grid.Counters).Data.Further);
 	// Later rounds know more: with a window of one frame, the mean is that of the last half of them.

@@ -15,7 +15,7 @@ const uint YoungBins = 6u;    // of coarse cells, and of fine ones that know lit
 const uint YoungCoarse = 9u; // count, from about 30 updates, up to which a coarse cell, which stands in for many, comes first
 
 const uint LivelyBin = YoungBins; // of cells whose light changes
-const float LivelyTrend = 0.1;    // see UnpackTrend
+const float NoiseOfTrend = 0.1;   // which a trend has without a change
 
 // Returns the bin of cells that have waited for so many frames.
 uint GetBinOfWait(uint Frames)
@@ -34,6 +34,6 @@ uint GetBin(FRadianceGrid Grid, FRadianceCell Cell)
 	if (Count > 0u && RadianceTurnsSince(Grid, RadianceCellAsked(State)) > Grid.AskedTurns) { return RADIANCE_CELL_BINS - 1u; }
 	if (bCoarse && Count < YoungCoarse) { return 0u; }
 	if (Count + 1u < YoungBins) { return Count + 1u; }
-	if (Grid.Rounds > 1u && abs(UnpackTrend(Cell.Normal)) > LivelyTrend) { return LivelyBin; }
+	if (Grid.Rounds > 1u && abs(UnpackTrend(Cell.Normal)) > NoiseOfTrend) { return LivelyBin; }
 	return GetBinOfWait(RadianceTurnsSince(Grid, RadianceCellUpdated(State)));
 }

@@ -1,5 +1,5 @@
-// Traces one path for each listed cell: what reaches a white surface at its place. Paths end in other cells as the last frame left them,
-// so the order of threads does not matter, and each update carries light one surface further. The ray-tracing pipeline and the ray-query
+// Traces one path for each listed cell: what reaches a white surface at its place. Paths end in other cells as the round before left them,
+// so the order of threads does not matter, and each round carries light one surface further. The ray-tracing pipeline and the ray-query
 // path share it.
 #ifndef LANTERN_RADIANCE_CELL_UPDATE_GLSL
 #define LANTERN_RADIANCE_CELL_UPDATE_GLSL

@@ -152,7 +152,7 @@ struct FRadianceGrid
 	FAddress Audit;       // FRadianceAuditPath[RADIANCE_AUDIT_PATHS], zero before; 0: no path is followed for it
 	float FollowChance;   // with which a pixel's paths are followed to correct what cells answer, with Audit
 	float Moment;         // frames by which what a cell remembers of its light lags behind it; 0: nothing has changed for long
-	uint Rounds;          // in which this frame updates cells whose light changes, up to RADIANCE_CELL_MOST_ROUNDS
+	uint Rounds;          // in which this frame updates cells whose light changes, 1 to RADIANCE_CELL_MOST_ROUNDS
 	uint Pad;
 };
 LANTERN_ASSERT_SIZE(FRadianceGrid, 184);

@@ -70,6 +70,7 @@ struct FRadianceTable
 {
 	static constexpr uint64_t Counters = 0;
 	static constexpr uint64_t UpdateVotes = 512;
+	static_assert(sizeof(FRadianceCellCounters) <= UpdateVotes);
 	static constexpr uint64_t Keys = UpdateVotes + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(FRadianceVote);
 	static uint64_t GetCells(uint32_t Slots) { return Keys + uint64_t(Slots) * sizeof(uint32_t); }
 	static uint64_t GetSize(uint32_t Slots) { return GetCells(Slots) + uint64_t(Slots) * sizeof(FRadianceCell); }
@@ -117,6 +118,7 @@ FRadianceGrid MakeGrid(const FFrameContext& Context, uint32_t Slots, const FRadi
 	Grid.Budget = static_cast<uint32_t>(std::min(Updates * Delta, MostBudget));
 	Grid.Room = DivideUp(std::min(Grid.Budget + Grid.Budget / 16 + 256, RADIANCE_CELL_MOST_UPDATES), RADIANCE_CELL_ROW) * RADIANCE_CELL_ROW;
 	Grid.Window = std::min(CVarSeconds.GetOnRenderThread() / Delta, Events.Window);
+	Grid.Rounds = 1;
 	Grid.EventCount = static_cast<uint32_t>(Events.Lamps.size());
 	Grid.SizeAngle = CVarSizeAngle.GetOnRenderThread();
 	Grid.NearCells = CVarNear.GetOnRenderThread();
@@ -148,7 +150,7 @@ void SetChanges(FFrameContext& Context, const FRadianceEvents::FFound& Events, u
 	const bool bLately = Context.RadianceEvents->HasChangedLately(bChanges);
 	Grid.Moment = bLately && CVarChange.GetOnRenderThread() ? PartInMoment * Seconds / Delta : 0.0f;
 	const bool bYoung = static_cast<float>(Age) * Delta < static_cast<float>(FRadianceEvents::LivelySeconds);
-	Grid.Rounds = bLately || bYoung ? static_cast<uint32_t>(CVarRounds.GetOnRenderThread()) : 1;
+	if (bLately || bYoung) { Grid.Rounds = static_cast<uint32_t>(CVarRounds.GetOnRenderThread()); }
 }
 
 std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
@@ -258,6 +260,7 @@ void AddUpdatePass(FFrameContext& Context, const FGBuffer& GBuffer, const std::s
 		if (Beside.Declare) { Beside.Declare(Builder); }
 		return [=, Record = Beside.Record](FPassContext& Pass) {
 			if (Record) { Record(Pass); } // without a barrier between
+			// Rounds share the budget.
 			if (Round == 0) { Pass.CountRays(uint64_t(Cells->Grid.Budget) * GetMaxPathRays(Frame->Facts, 1)); }
 			const FRadianceCellConstants C = MakeConstants(*Frame, *Cells, Round);
 			const uint32_t Rows = Cells->Grid.Room / RADIANCE_CELL_ROW;
