@@ -1,15 +1,13 @@
-// Gives each cell the place of the look-up that won its vote: those of this frame's pixels, and of updates of the frame before.
+// Gives each cell the place of the look-up that won its vote.
 #version 460
 #include "RadianceCellSlots.glsl"
 
 void main()
 {
 	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
-	uint Thread = GetThread();
-	if (Thread >= Grid.VoteCount + RADIANCE_CELL_MOST_UPDATES) { return; }
-	bool bPixel = Thread < Grid.VoteCount;
-	FRadianceVoteRef Votes = FRadianceVoteRef(bPixel ? Grid.Votes : Grid.UpdateVotes);
-	FRadianceVote Vote = Votes.Data[bPixel ? Thread : Thread - Grid.VoteCount];
+	uint Number = GetThread();
+	if (Number >= CountNotes(Grid)) { return; }
+	FRadianceVote Vote = FRadianceVoteRef(GetNote(Grid, Number)).Data[0];
 	if (Vote.Vote == 0u || Vote.Slot >= GetSlotCount(Grid)) { return; } // a table begins with zeroes
 	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 	if (Cells.Data[Vote.Slot].Vote != Vote.Vote) { return; }

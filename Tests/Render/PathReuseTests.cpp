@@ -129,7 +129,11 @@ TEST_F(FPathReuseTest, PoisonIsGoneAndReachesNoPicture)
 	}
 }
 
-TEST_F(FPathReuseTest, TheSameBitsAgain) { ExpectTheSameBitsAgain("courtyard", MakeView(64, 36)); }
+TEST_F(FPathReuseTest, TheSameBitsAgain)
+{
+	ASSERT_TRUE(Load("courtyard")); // which the view is of
+	ExpectTheSameBitsAgain("courtyard", MakeView(64, 36));
+}
 } // namespace
 
 } // namespace Lantern
