@@ -86,12 +86,12 @@ void main()
 	float Waited = Push.Round == 0u ? float(max(RadianceTurnsSince(Grid, RadianceCellUpdated(Cell.State)), 1u)) : 0.0;
 	FRadianceResult Result = FRadianceResultRef(Grid.Results).Data[Number];
 	FWindow Window = GetWindow(Grid, Cell, Result.Light);
-	float Wanted = clamp(LivelyUpdates / Window.Frames, 1.0, float(Grid.Rounds));
+	float Wanted = clamp(min(LivelyUpdates, Grid.StillWindow) / Window.Frames, 1.0, float(Grid.Rounds));
 	// Where the budget does not suffice, a mean over as many updates would be one over a longer time.
-	float Rounds = min(Wanted, 1.0 + FRadianceCountersRef(Grid.Counters).Data.Further);
+	float Rounds = 1.0 + (Wanted - 1.0) * FRadianceCountersRef(Grid.Counters).Data.Further;
 	// Later rounds know more: with a window of one frame, the mean is that of the last half of them.
 	float OfThisFrame = float((Push.Round + 2u) / 2u);
-	float Updates = (Window.Frames / max(Waited, 1.0) - 1.0) * Rounds + OfThisFrame;
+	float Updates = max(Window.Frames / max(Waited, 1.0) - 1.0, 0.0) * Rounds + OfThisFrame;
 	uint Most = uint(clamp(Updates, Window.Least, float(RADIANCE_CELL_COUNT_MASK)));
 	uint Known = RadianceCellCount(Cell.State);
 	vec4 U = vec4(HashPcg4(uvec4(RadianceSeed(Grid, Cell), Grid.Turn, Known, 0x51ed270bu + Push.Round)) >> 8u) * (1.0 / 16777216.0);
@@ -101,13 +101,15 @@ void main()
 	vec3 Before = UnpackRgbe(Cell.Light), Mean = Before;
 	vec3 Moment = UnpackMeanDirection(Cell.From) * Luminance(Before);
 	Mean += (Result.Light - Mean) / float(Count);
-	if (Grid.Moment > 0.0) { Mean = max(Mean, Before * LeastLeft); }
+	if (Grid.Moment > 0.0) { Mean = max(Mean, Before * max(LeastLeft, UnpackBefore(Cell.GeometricNormal) / MostGone)); }
 	Moment += (Result.Moment - Moment) / float(Count);
 	Cells.Data[Slot].Light = PackRgbe(max(Mean, vec3(0.0)), U.xyz);
 	float Sum = Luminance(Mean);
 	NoteChange(Grid, Slot, FChange(Luminance(Before), Sum, Luminance(Result.Light), Result.Gone, Waited, Known, Most), U);
 	Cells.Data[Slot].From = PackMeanDirection(Sum > 0.0 ? Moment / Sum : vec3(0.0), U.yzx);
-	if (Push.Round + 1u < uint(ceil(Wanted)))
+	// One number for the rounds of a frame.
+	float Chance = float(HashPcg(RadianceSeed(Grid, Cell) ^ HashPcg(Grid.Turn ^ 0x68bc21ebu)) >> 8u) * (1.0 / 16777216.0);
+	if (Push.Round + 1u < uint(Wanted + Chance))
 	{
 		FRadianceWordRef(Grid.List).Data[Entry] = Slot | LivelySlot;
 		atomicAdd(FRadianceCountersRef(Grid.Counters).Data.Lively[Push.Round], 1u);

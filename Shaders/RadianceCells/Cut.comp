@@ -22,9 +22,13 @@ void main()
 		Sum += Count;
 		Young += Bin < YoungBins ? Count : 0u;
 	}
-	uint Further = 0u, Lively = Counters.Data.Lively[0];
-	for (uint Round = 1u; Round < RADIANCE_CELL_MOST_ROUNDS; ++Round) { Further += CountListed(Grid, Round); }
-	Counters.Data.Further = Lively > 0u ? float(Further) / float(Lively) : float(RADIANCE_CELL_MOST_ROUNDS);
+	uint Further = 0u, Wanted = 0u;
+	for (uint Round = 1u; Round < RADIANCE_CELL_MOST_ROUNDS; ++Round)
+	{
+		Wanted += Counters.Data.Lively[Round - 1u];
+		Further += CountListed(Grid, Round);
+	}
+	Counters.Data.Further = Wanted > 0u ? min(float(Further) / float(Wanted), 1.0) : 1.0;
 	for (uint Round = 0u; Round < RADIANCE_CELL_MOST_ROUNDS; ++Round) { Counters.Data.Listed[Round] = Counters.Data.Lively[Round] = 0u; }
 	Counters.Data.Cutoff = Cutoff;
 	Counters.Data.Share = Share;

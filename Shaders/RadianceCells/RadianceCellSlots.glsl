@@ -22,18 +22,17 @@ FAddress GetNote(FRadianceGrid Grid, uint Number)
 const uint YoungBins = 6u;    // of coarse cells, and of fine ones that know little
 const uint YoungCoarse = 9u; // count, from about 30 updates, up to which a coarse cell, which stands in for many, comes first
 
-const uint LivelyBin = YoungBins; // of cells whose light changes
+const uint LivelyAhead = 8u;      // frames by which a cell whose light changes comes before those that have waited for as long
 const float NoiseOfTrend = 0.1;   // which a trend has without a change
 
 // Returns the bin of cells that have waited for so many frames.
 uint GetBinOfWait(uint Frames)
 {
-	const uint Longest = RADIANCE_CELL_BINS - 2u - LivelyBin;
-	return LivelyBin + 1u + Longest - min(Frames, Longest);
+	const uint Longest = RADIANCE_CELL_BINS - 2u - YoungBins;
+	return YoungBins + Longest - min(Frames, Longest);
 }
 
-// Bins in order of urgency: cells that know little, those whose light changes, then those that have waited longest. The last one is never
-// updated.
+// Bins in order of urgency: cells that know little, then those that have waited longest. The last one is never updated.
 uint GetBin(FRadianceGrid Grid, FRadianceCell Cell)
 {
 	uint State = Cell.State;
@@ -42,6 +41,6 @@ uint GetBin(FRadianceGrid Grid, FRadianceCell Cell)
 	if (Count > 0u && RadianceTurnsSince(Grid, RadianceCellAsked(State)) > Grid.AskedTurns) { return RADIANCE_CELL_BINS - 1u; }
 	if (bCoarse && Count < YoungCoarse) { return 0u; }
 	if (Count + 1u < YoungBins) { return Count + 1u; }
-	if (Grid.Rounds > 1u && abs(UnpackTrend(Cell.Normal)) > NoiseOfTrend) { return LivelyBin; }
-	return GetBinOfWait(RadianceTurnsSince(Grid, RadianceCellUpdated(State)));
+	bool bLively = Grid.Rounds > 1u && abs(UnpackTrend(Cell.Normal)) > NoiseOfTrend;
+	return GetBinOfWait(RadianceTurnsSince(Grid, RadianceCellUpdated(State)) + (bLively ? Grid.LeastWait + LivelyAhead : 0u));
 }

@@ -85,7 +85,7 @@ struct FRadianceCellCounters
 	uint Lively[RADIANCE_CELL_MOST_ROUNDS]; // of these, such as are worth another round
 	uint Cutoff; // bin of priority of which only a share is listed; those before it are listed wholly
 	float Share;
-	float Further; // updates that lively cells had in the frame before behind the first round, mean
+	float Further; // part of the further updates that cells wanted in the frame before, and had
 	uint Bins[RADIANCE_CELL_BINS]; // cells by priority
 };
 LANTERN_ASSERT_SIZE(FRadianceCellCounters, 332);
@@ -154,7 +154,7 @@ struct FRadianceGrid
 	float FollowChance;   // with which a pixel's paths are followed to correct what cells answer, with Audit
 	float Moment;         // frames by which what a cell remembers of its light lags behind it; 0: nothing has changed for long
 	uint Rounds;          // in which this frame updates cells whose light changes, 1 to RADIANCE_CELL_MOST_ROUNDS
-	uint Pad;
+	float StillWindow;    // frames over which light is averaged that does not change
 };
 LANTERN_ASSERT_SIZE(FRadianceGrid, 184);
 

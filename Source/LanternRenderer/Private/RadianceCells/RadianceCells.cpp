@@ -117,7 +117,8 @@ FRadianceGrid MakeGrid(const FFrameContext& Context, uint32_t Slots, const FRadi
 	const double Updates = double(CVarUpdates.GetOnRenderThread()) * (Events.bHurry ? HurryFactor : 1.0);
 	Grid.Budget = static_cast<uint32_t>(std::min(Updates * Delta, MostBudget));
 	Grid.Room = DivideUp(std::min(Grid.Budget + Grid.Budget / 16 + 256, RADIANCE_CELL_MOST_UPDATES), RADIANCE_CELL_ROW) * RADIANCE_CELL_ROW;
-	Grid.Window = std::min(CVarSeconds.GetOnRenderThread() / Delta, Events.Window);
+	Grid.StillWindow = CVarSeconds.GetOnRenderThread() / Delta;
+	Grid.Window = std::min(Grid.StillWindow, Events.Window);
 	Grid.Rounds = 1;
 	Grid.EventCount = static_cast<uint32_t>(Events.Lamps.size());
 	Grid.SizeAngle = CVarSizeAngle.GetOnRenderThread();
