@@ -137,6 +137,13 @@ uint RadianceLevel(FRadianceGrid Grid, float Distance, float U)
 
 // Rank: surfaces between the camera and the look-up, 1 or more: near ones win. Hash: random.
 uint MakeRadianceVote(uint Rank, uint Hash) { return ((7u - min(Rank, 7u)) << 29u) | max(Hash >> 3u, 1u); }
+uint RankOfVote(uint Vote) { return 7u - (Vote >> 29u); }
+
+// The rank of the look-up that has given a cell its place, in the bits that PackMeanDirection leaves. It ends at the greatest.
+const uint RankShift = 30u, GreatestRank = 4u;
+uint UnpackRank(uint From) { return (From >> RankShift) + 1u; }
+uint PackRank(uint Rank) { return (clamp(Rank, 1u, GreatestRank) - 1u) << RankShift; }
+const uint MeanDirectionMask = (1u << RankShift) - 1u;
 
 uint RadianceTurnsSince(FRadianceGrid Grid, uint Then) { return (Grid.Turn - Then) & RADIANCE_CELL_TURN_MASK; }
 uint RadianceCellCount(uint State) { return State & RADIANCE_CELL_COUNT_MASK; }

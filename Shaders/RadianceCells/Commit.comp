@@ -106,7 +106,7 @@ void main()
 	Cells.Data[Slot].Light = PackRgbe(max(Mean, vec3(0.0)), U.xyz);
 	float Sum = Luminance(Mean);
 	NoteChange(Grid, Slot, FChange(Luminance(Before), Sum, Luminance(Result.Light), Result.Gone, Waited, Known, Most), U);
-	Cells.Data[Slot].From = PackMeanDirection(Sum > 0.0 ? Moment / Sum : vec3(0.0), U.yzx);
+	Cells.Data[Slot].From = PackMeanDirection(Sum > 0.0 ? Moment / Sum : vec3(0.0), U.yzx) | (Cell.From & ~MeanDirectionMask);
 	// One number for the rounds of a frame.
 	float Chance = float(HashPcg(RadianceSeed(Grid, Cell) ^ HashPcg(Grid.Turn ^ 0x68bc21ebu)) >> 8u) * (1.0 / 16777216.0);
 	if (Push.Round + 1u < uint(Wanted + Chance))

@@ -61,7 +61,8 @@ void UpdateCell(uint Number)
 	FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[FRadianceWordRef(Grid.List).Data[PlaceInList(Push.Round, Number)]];
 	uint Seed = RadianceSeed(Grid, Cell) + Push.Round * 0x9e3779b9u;
 	FRandom Random = MakeRandom(uvec2(Seed & 0xffffu, Seed >> 16u), View.FrameIndex, HashPcg(View.Seed + 0x2545f491u));
-	BeginRadianceLookUps(Push.Grid, View, bVotes ? Grid.UpdateVotes : FAddress(0), Number, 2u, HashPcg(Seed ^ HashPcg(View.FrameIndex)));
+	uint Rank = UnpackRank(Cell.From) + 1u;
+	BeginRadianceLookUps(Push.Grid, View, bVotes ? Grid.UpdateVotes : FAddress(0), Number, Rank, HashPcg(Seed ^ HashPcg(View.FrameIndex)));
 	FRadianceResultRef(Grid.Results).Data[Number] = SampleCell(Scene, Grid, Cell, Random);
 }
 

@@ -39,7 +39,7 @@ struct FRadianceCell
 	uint GeometricNormal; // there: by PackOct24, and PackBefore's bits
 	uint Normal;          // there: by PackOct24, and PackTrend's bits
 	uint Light; // mean of irradiance / π, by PackRgbe
-	uint From;  // mean direction that it comes from, each weighted by its luminance, by PackMeanDirection; its length says how alike they are
+	uint From;  // mean direction that it comes from, each weighted by its luminance, by PackMeanDirection; its length says how alike they are. And PackRank's bits
 };
 LANTERN_ASSERT_SIZE(FRadianceCell, 36);
 

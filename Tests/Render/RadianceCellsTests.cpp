@@ -42,6 +42,17 @@ TEST_F(FRadianceCellsTest, FurnaceOfAllBounces)
 	ExpectClosedForm("furnace through cells", EstimateSettled(MakeView(24, 24), "furnace:0.5"), 1.0, 0.02);
 }
 
+// In a bright room, light comes by dozens of surfaces. What a new table's paths lose would be missing for seconds: an eighth, if they ended
+// at the third surface.
+TEST_F(FRadianceCellsTest, NewTableHasTheLightOfBrightRooms)
+{
+	constexpr const char* Scene = "furnace:0.9";
+	ASSERT_TRUE(Load(Scene));
+	SetVariable("r.RT.Lights.Emissive", "0");
+	SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "2500000");
+	ExpectClosedForm("bright furnace through cells", EstimateSettled(MakeView(24, 24), Scene), 5.0, 0.02);
+}
+
 // Φ/S ρ / (1 − ρ) / π: the point light's own light is not in it.
 TEST_F(FRadianceCellsTest, SphereOfAllBounces)
 {

@@ -32,7 +32,8 @@ FRTStatus MeasureTemple(FStabilityStage& Stage, std::vector<FStabilityFigure>& O
 	Frames.erase(Frames.begin(), Frames.begin() + Warm);
 	FSignalReference Reference;
 	Stage.GetScene().SetSun(Sun);
-	if (FRTStatus S = Stage.GetReference(View, 0.0, Reference); !S) { return S; }
+	constexpr uint32_t Bounces = 64; // three quarters of the chamber's light come by more than 16
+	if (FRTStatus S = Stage.GetReference(View, 0.0, Reference, Bounces); !S) { return S; }
 	const FImage Mean = MeanImage(Frames);
 	Stage.AddToStrip(Mean, Reference.Mean);
 	const double Wall = double(Sun.Irradiance) * std::abs(glm::normalize(Sun.Direction).z) / std::numbers::pi;

@@ -1,6 +1,7 @@
 // The stage of a stability case: scene, engine, frames and limits.
 #include "LanternMeasure/Stability/StabilityStage.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "LanternCore/FrameGraph/History.h"
@@ -107,7 +108,7 @@ FRTStatus FStabilityStage::Play(const std::vector<FStabilityShot>& Shots, std::v
 	return FRTStatus::Success();
 }
 
-FRTStatus FStabilityStage::GetReference(const FView& View, double Time, FSignalReference& Out)
+FRTStatus FStabilityStage::GetReference(const FView& View, double Time, FSignalReference& Out, uint32_t Bounces)
 {
 	FSignalReferenceDesc Desc;
 	Desc.View = View;
@@ -115,7 +116,7 @@ FRTStatus FStabilityStage::GetReference(const FView& View, double Time, FSignalR
 	Desc.Time = Time;
 	Desc.Signal = Signal;
 	Desc.Samples = Settings.ReferenceSamples;
-	Desc.Bounces = Settings.Bounces;
+	Desc.Bounces = std::max(Settings.Bounces, Bounces);
 	Desc.CacheFolder = Settings.CacheFolder;
 	return GetSignalReference(Engine, Desc, Out);
 }

@@ -65,8 +65,8 @@ public:
 	/// Whether the method of the last Play has a history.
 	bool KeepsHistory() const { return bKeepsHistory; }
 	/// Traces or reads a reference of the scene in its current state. Play plays whole sequences, so that this never falls
-	/// between their frames.
-	FRTStatus GetReference(const FView& View, double Time, FSignalReference& Out);
+	/// between their frames. Bounces: at least; 0: as many as the settings say.
+	FRTStatus GetReference(const FView& View, double Time, FSignalReference& Out, uint32_t Bounces = 0);
 
 	/// Adds a frame and its reference (may be empty) to the picture strip, which holds the newest run only.
 	void AddToStrip(const FImage& Frame, const FImage& Reference);
