@@ -56,13 +56,13 @@ TRTConsoleVariable<int32_t> CVarRounds("r.RT.GI.Cells.Rounds", 4,
     {1, RADIANCE_CELL_MOST_ROUNDS});
 
 constexpr float LifeSeconds = 2.0f;
-constexpr float PartInMoment = 0.25f;                                 // of the time that a cell averages over, see FRadianceGrid::Moment
-constexpr float RestChance = 0.5f;                                    // once cells are there
-constexpr float AgesInWindow = 6.0f;                                  // a new table averages over this part of its age
-constexpr float MostUpdatesInWindow = 16.0f;                          // of a cell, if nothing changes
-constexpr uint32_t FramesWithoutCells = 4;                            // of a new table, whose pictures are made by whole paths
-constexpr uint32_t MaxBounces = 64;                                   // of updates that meet no cell, as of the reference: a new table's paths would else be too dark
-constexpr double HurryFactor = 4.0;                                   // of the updates, where something has changed
+constexpr float PartInMoment = 0.25f;        // of the time that a cell averages over, see FRadianceGrid::Moment
+constexpr float RestChance = 0.5f;           // once cells are there
+constexpr float AgesInWindow = 6.0f;         // a new table averages over this part of its age
+constexpr float MostUpdatesInWindow = 16.0f; // of a cell, if nothing changes
+constexpr uint32_t FramesWithoutCells = 4;   // of a new table, whose pictures are made by whole paths
+constexpr uint32_t MaxBounces = 64;          // of updates that meet no cell: what a new table's paths lose is missing for seconds
+constexpr double HurryFactor = 4.0;          // of the updates, where something has changed
 constexpr double MostBudget = RADIANCE_CELL_MOST_UPDATES * 15.0 / 16; // the last bin is cut by chance, which may give more than its share
 
 /// FRadianceTable and FRadianceWork: the parts of the two buffers, by offset in bytes.
