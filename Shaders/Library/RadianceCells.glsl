@@ -121,6 +121,7 @@ uint RankOfVote(uint Vote) { return 7u - (Vote >> 29u); }
 
 // The rank of the look-up that has given a cell its place, in the bits that PackMeanDirection leaves. It ends at the greatest.
 const uint RankShift = 30u, GreatestRank = 4u;
+const uint PixelRank = 2u; // of what pixels look up; what updates look up has greater ones
 uint UnpackRank(uint From) { return (From >> RankShift) + 1u; }
 uint PackRank(uint Rank) { return (clamp(Rank, 1u, GreatestRank) - 1u) << RankShift; }
 const uint MeanDirectionMask = (1u << RankShift) - 1u;
@@ -151,6 +152,7 @@ void AskRadianceCell(FRadianceGrid Grid, uint Slot, bool bCoarse)
 	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 	uint State = Cells.Data[Slot].State;
 	const uint Rest = (1u << RADIANCE_CELL_ASKED_SHIFT) - 1u;
+	if (State == 0u) { State = Grid.Turn << RADIANCE_CELL_UPDATED_SHIFT; } // a new cell waits from now on
 	uint Asked = (State & Rest) | (Grid.Turn << RADIANCE_CELL_ASKED_SHIFT) | (bCoarse ? RADIANCE_CELL_COARSE : 0u);
 	if (State != Asked) { Cells.Data[Slot].State = Asked; }
 }

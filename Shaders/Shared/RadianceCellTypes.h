@@ -93,7 +93,7 @@ LANTERN_ASSERT_SIZE(FRadianceCellCounters, 332);
 struct FRadianceCellStatistics
 {
 	uint Live;    // cells in use
-	uint Young;   // of these, such as have had few updates and come before all others
+	uint Young;   // of these, such as pixels look up that have had few updates and come before all others
 	uint Updated; // updates, of all rounds
 	uint Full;    // votes for a cell that found no room at its level
 	uint Found;   // look-ups that ended in the cell of their place

@@ -92,6 +92,32 @@ TEST_F(FRadianceChangeTest, LightGoesSeveralSurfacesFurtherInAFrame)
 	EXPECT_GT(Lit[true], 0.95 * Lit[false]);
 }
 
+// Rays from one slope of a long valley meet the other one far away, where their cells ask for more. There are always more new cells than
+// updates, and what pixels ask for must not wait for them: when the sun is gone, its light is not seen for long.
+TEST_F(FRadianceChangeTest, NewCellsFarAwayDoNotKeepWhatIsSeenWaiting)
+{
+	FTestScene Scene("valley");
+	const int32_t Ground = Scene.AddLambert(glm::vec3(0.7f));
+	constexpr float Long = 300.0f, Wide = 20.0f;
+	Scene.AddNode(Scene.AddMesh({{Ground, {{-Wide, Wide, Long}, {0, 0, Long}, {0, 0, -Long}, {-Wide, Wide, -Long}}},
+	    {Ground, {{0, 0, Long}, {Wide, Wide, Long}, {Wide, Wide, -Long}, {0, 0, -Long}}}}));
+	ASSERT_TRUE(Load(Scene.Scene));
+	SetSky(glm::vec3(0));
+	SetSun(0.0, 2.0f, {0.6, -0.8, 0.0});
+	SetVariable("r.RT.GI.Denoise", "0");
+	SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "60000");
+	const FView View = LookAt({1, 3, 0}, {4, 4, 0}, 0.2f, 24, 24);
+	constexpr uint32_t Change = 136; // frame
+	RenderSignal(ESignal::DiffuseGI, View, Change - 8);
+	const double Before = MeanGreen(RenderSignal(ESignal::DiffuseGI, View, 8, Change - 8));
+	ASSERT_GT(Before, 0.0);
+	SetSun(0.0, 0.02f, {0.6, -0.8, 0.0});
+	RenderSignal(ESignal::DiffuseGI, View, 16, Change);
+	const double Left = MeanGreen(RenderSignal(ESignal::DiffuseGI, View, 8, Change + 16)) / Before;
+	PrintFigure(fmt::format("valley: 20 frames after the sun has gone, {:.3f} of its light is left", Left));
+	EXPECT_LT(Left, 0.25);
+}
+
 TEST_F(FRadianceChangeTest, SameBitsAgain)
 {
 	PlayDoor(true, 4); // shaders are then there, and both others come behind the same changes

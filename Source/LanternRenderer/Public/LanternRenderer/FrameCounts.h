@@ -32,7 +32,7 @@ struct FRayCounts
 struct FRadianceCellCounts
 {
 	uint32_t Live = 0;    ///< cells in use
-	uint32_t Young = 0;   ///< of these, such as have had few updates and come before all others
+	uint32_t Young = 0;   ///< of these, such as pixels look up that have had few updates and come before all others
 	uint32_t Updated = 0; ///< cells
 	uint32_t Full = 0;    ///< votes for a cell that found no room at its level
 	uint32_t Found = 0;   ///< look-ups that ended in the cell of their place
