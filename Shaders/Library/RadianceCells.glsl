@@ -8,6 +8,8 @@
 // - Some look-ups vote. They insert cells, and the place of one of them is where the cell's rays start from then on. A cell's light is
 //   thus the mean over the places that are asked for.
 // - Votes are a maximum of hashes, so that the result does not depend on the order of threads.
+// - What a bucket holds does not depend on it either: new keys are kept in order, and the greatest stay, as in "Phase-Concurrent Hash Tables
+//   for Determinism" (Shun and Blelloch 2014). Keys of earlier frames stay where they are. A look-up finds these alone.
 #ifndef LANTERN_RADIANCE_CELLS_GLSL
 #define LANTERN_RADIANCE_CELLS_GLSL
 
@@ -40,40 +42,49 @@ ivec3 ToRadianceSteps(FRadianceGrid Grid, vec3 Position) { return Grid.Origin + 
 // Returns the centre of a step.
 vec3 FromRadianceSteps(FRadianceGrid Grid, ivec3 Steps) { return (vec3(Steps - Grid.Origin) + 0.5) / LIGHT_POSITION_STEPS; }
 
-const uint LostKey = 0xffffffffu; // of no cell: something has overwritten the table
+const uint LostKey = 0xffffffffu;    // of no cell: something has overwritten the table
+const uint SettledKey = 0x80000000u; // set in keys of earlier frames
 
 struct FRadianceKey
 {
 	uint FirstSlot; // of its bucket
-	uint Check;     // neither 0 nor LostKey
+	uint Check;     // neither 0 nor LostKey, without SettledKey
+	uint Name;      // which of the cells at its place it is, see MakeNamedKey
 };
 
 const uint NoSide = 6u;
+const uint NameCoarse = 1u << 12u, NameSide = 8u; // a name is level | side | coarse
+
+// Returns the key of a cell at a place. Name: of another key.
+FRadianceKey MakeNamedKey(FRadianceGrid Grid, ivec3 Steps, uint Name)
+{
+	uint Shift = RADIANCE_CELL_FINEST_SHIFT + (Name & 0xffu), Side = (Name & ~NameCoarse) >> NameSide;
+	ivec3 Cell = Steps >> Shift;
+#ifndef NO_LAYERS // r.RT.Debug.GI.Layers
+	uint Axis = Side >> 1u;
+	if (Side == NoSide) { Cell = Steps >> (Shift + 1u); }
+	else { Cell[Axis] = Steps[Axis] >> (Shift - RADIANCE_CELL_THICKNESS); }
+#endif
+	uvec4 Hash = HashPcg4(uvec4(uvec3(Cell), Name));
+	uint Check = clamp(Hash.y & ~SettledKey, 1u, (LostKey & ~SettledKey) - 1u);
+	return FRadianceKey((Hash.x & Grid.BucketMask) * RADIANCE_CELL_BUCKET, Check, Name);
+}
 
 // Normal: geometric, towards the side that the light comes from. Without it, bThick: cells are cubes, twice as wide, in which all surfaces
 // share the light.
 FRadianceKey MakeRadianceKey(FRadianceGrid Grid, ivec3 Steps, uint Level, bool bCoarse, vec3 Normal, bool bThick)
 {
-	uint Shift = RADIANCE_CELL_FINEST_SHIFT + Level;
-	ivec3 Cell = Steps >> Shift;
+#ifndef NO_LAYERS
 	vec3 Size = abs(Normal);
 	uint Axis = Size.x > Size.y ? (Size.x > Size.z ? 0u : 2u) : (Size.y > Size.z ? 1u : 2u);
-#ifndef NO_LAYERS // r.RT.Debug.GI.Layers
-	Cell[Axis] = Steps[Axis] >> (Shift - RADIANCE_CELL_THICKNESS);
-	uint Side = Axis * 2u + (Normal[Axis] < 0.0 ? 1u : 0u);
-	if (bThick)
-	{
-		Cell = Steps >> (Shift + 1u);
-		Side = NoSide;
-	}
+	uint Side = bThick ? NoSide : Axis * 2u + (Normal[Axis] < 0.0 ? 1u : 0u);
 #else
 	uint Side = 0u;
 #endif
-	uvec4 Hash = HashPcg4(uvec4(uvec3(Cell), Level | (Side << 8u) | (bCoarse ? 1u << 12u : 0u)));
-	return FRadianceKey((Hash.x & Grid.BucketMask) * RADIANCE_CELL_BUCKET, clamp(Hash.y, 1u, LostKey - 1u));
+	return MakeNamedKey(Grid, Steps, Level | (Side << NameSide) | (bCoarse ? NameCoarse : 0u));
 }
 
-// bFull: gets whether the bucket has no room.
+// Finds cells of earlier frames. bFull: gets whether these leave no room in the bucket.
 uint FindRadianceCell(FRadianceGrid Grid, FRadianceKey Key, out bool bFull)
 {
 	FRadianceWordRef Keys = FRadianceWordRef(Grid.Keys);
@@ -81,25 +92,34 @@ uint FindRadianceCell(FRadianceGrid Grid, FRadianceKey Key, out bool bFull)
 	for (uint I = 0u; I < RADIANCE_CELL_BUCKET; ++I)
 	{
 		uint Its = Keys.Data[Key.FirstSlot + I];
-		if (Its == Key.Check) { return Key.FirstSlot + I; }
-		bFull = bFull && Its != 0u;
+		if (Its == (Key.Check | SettledKey)) { return Key.FirstSlot + I; }
+		bFull = bFull && Its >= SettledKey;
 	}
 	return NO_RADIANCE_CELL;
 }
 
-// Slots are freed in another pass, so all threads that insert a key find the same first free slot.
-uint InsertRadianceCell(FRadianceGrid Grid, FRadianceKey Key)
+// Puts a key that is not in the table among the new ones of its bucket. They are in descending order, and the least fall out where there is
+// no room. Its slot is known when all have been put in.
+void AddNewKey(FRadianceGrid Grid, FRadianceKey Key)
 {
-	bool bFull;
-	uint Found = FindRadianceCell(Grid, Key, bFull);
-	if (Found != NO_RADIANCE_CELL) { return Found; }
+	FRadianceWordRef Keys = FRadianceWordRef(Grid.Keys);
+	uint Check = Key.Check;
+	for (uint I = 0u; I < RADIANCE_CELL_BUCKET; ++I)
+	{
+		uint Slot = Key.FirstSlot + I, Before = Keys.Data[Slot];
+		if (Before < Check) { Before = atomicMax(Keys.Data[Slot], Check); } // else it is settled, or greater
+		if (Before == Check || Before == 0u) { return; }
+		Check = min(Before, Check); // what was there goes further
+	}
+}
+
+// Returns the slot of a key that is new in this frame, or NO_RADIANCE_CELL: there was no room. Behind all threads that add keys.
+uint FindNewKey(FRadianceGrid Grid, FRadianceKey Key)
+{
 	FRadianceWordRef Keys = FRadianceWordRef(Grid.Keys);
 	for (uint I = 0u; I < RADIANCE_CELL_BUCKET; ++I)
 	{
-		uint Slot = Key.FirstSlot + I;
-		if (Keys.Data[Slot] != 0u && Keys.Data[Slot] != Key.Check) { continue; }
-		uint Before = atomicCompSwap(Keys.Data[Slot], 0u, Key.Check);
-		if (Before == 0u || Before == Key.Check) { return Slot; }
+		if (Keys.Data[Key.FirstSlot + I] == Key.Check) { return Key.FirstSlot + I; }
 	}
 	return NO_RADIANCE_CELL;
 }
@@ -191,6 +211,13 @@ struct FRadianceVoter
 	uint Hash;
 };
 
+// Returns the address of one of FRadianceVote[].
+FAddress GetVoteNote(FAddress Votes, uint Number)
+{
+	const uint VoteBytes = 28u;
+	return Votes + FAddress(Number) * FAddress(VoteBytes);
+}
+
 // Number of the 2×2 pixels that a pixel lies in: they share a vote.
 uint VoterOfPixel(FViewConstants View, uvec2 Pixel) { return (Pixel.y >> 1u) * ((View.Width + 1u) >> 1u) + (Pixel.x >> 1u); }
 
@@ -202,32 +229,35 @@ bool VotesInTurn(FViewConstants View, uvec2 Pixel)
 	return (Pixel.y & 1u) * Block.x + (Pixel.x & 1u) == Turn;
 }
 
+void NoteVote(FRadianceQuery Query, FRadianceVoter Voter, uint Slot, uint Vote, ivec3 Steps)
+{
+	FRadianceVoteRef(Voter.Note).Data[0] = FRadianceVote(Slot, Vote, Steps, PackOct24(Query.GeometricNormal), PackOct24(Query.Normal));
+}
+
 // Returns the slot of the query's cell, or NO_RADIANCE_CELL. A full bucket gives the cell to the next coarser level.
 uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, uint Level, bool bCoarse)
 {
 	ivec3 Steps = ToRadianceSteps(Grid, Query.Position);
-	bool bVotes = Voter.Note != FAddress(0);
+	uint Vote = 0u;
+	if (Voter.Note != FAddress(0)) { Vote = MakeRadianceVote(Voter.Rank, Voter.Hash ^ HashPlace(Grid, Steps, VoteShift)); }
 	for (uint Coarser = 0u; Coarser < 4u; ++Coarser)
 	{
 		FRadianceKey Key = MakeRadianceKey(Grid, Steps, min(Level + Coarser, RADIANCE_CELL_LEVELS - 1u), bCoarse, Query.GeometricNormal,
 		                                   Query.bFoliage);
-		bool bFull = true;
-		uint Slot = bVotes ? InsertRadianceCell(Grid, Key) : FindRadianceCell(Grid, Key, bFull);
-		// Without this, what is found would depend on whether a thread beside inserts the cell first.
-		if (Slot == NO_RADIANCE_CELL && !bFull) { return Slot; }
-		if (Slot == NO_RADIANCE_CELL)
+		bool bFull;
+		uint Slot = FindRadianceCell(Grid, Key, bFull);
+		if (Slot == NO_RADIANCE_CELL && bFull)
 		{
 			if (Grid.Statistics != FAddress(0)) { atomicAdd(FRadianceStatisticsRef(Grid.Statistics).Data.Full, 1u); }
 			continue;
 		}
-		AskRadianceCell(Grid, Slot, bCoarse);
-		if (bVotes)
+		if (Slot != NO_RADIANCE_CELL)
 		{
-			uint Vote = MakeRadianceVote(Voter.Rank, Voter.Hash ^ HashPlace(Grid, Steps, VoteShift));
-			atomicMax(FRadianceCellRef(Grid.Cells).Data[Slot].Vote, Vote);
-			FRadianceVoteRef(Voter.Note).Data[0] =
-			    FRadianceVote(Slot, Vote, Steps, PackOct24(Query.GeometricNormal), PackOct24(Query.Normal));
+			AskRadianceCell(Grid, Slot, bCoarse);
+			if (Vote != 0u) { atomicMax(FRadianceCellRef(Grid.Cells).Data[Slot].Vote, Vote); }
 		}
+		else if (Vote != 0u) { AddNewKey(Grid, Key); }
+		if (Vote != 0u) { NoteVote(Query, Voter, Slot != NO_RADIANCE_CELL ? Slot : NEW_RADIANCE_CELL | Key.Name, Vote, Steps); }
 		return Slot;
 	}
 	return NO_RADIANCE_CELL;

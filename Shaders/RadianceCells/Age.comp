@@ -1,4 +1,4 @@
-// Frees cells that nobody has asked for, and counts the others by urgency.
+// Frees cells that nobody has asked for, and counts the others by urgency. New ones are found from here on.
 #version 460
 #include "RadianceCellSlots.glsl"
 
@@ -15,15 +15,23 @@ void main()
 	{
 		FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 		FRadianceCell Cell = Cells.Data[Slot];
+		uint Key = Keys.Data[Slot];
+		bool bNew = Key < SettledKey;
 		Cells.Data[Slot].Vote = 0u;
-		if (Keys.Data[Slot] == LostKey || RadianceTurnsSince(Grid, RadianceCellAsked(Cell.State)) > Grid.Life)
+		// Without a vote, a new cell has no place.
+		bool bUnused = bNew ? Cell.Vote == 0u : RadianceTurnsSince(Grid, RadianceCellAsked(Cell.State)) > Grid.Life;
+		if (Key == LostKey || bUnused)
 		{
 			Keys.Data[Slot] = 0u;
 			Cells.Data[Slot].State = 0u;
 			Cells.Data[Slot].Light = 0u;
 			Cells.Data[Slot].From = 0u;
 		}
-		else { atomicAdd(Bins[GetBin(Grid, Cell)], 1u); }
+		else
+		{
+			if (bNew) { Keys.Data[Slot] = Key | SettledKey; }
+			atomicAdd(Bins[GetBin(Grid, Cell)], 1u);
+		}
 	}
 	barrier();
 	if (Lane < RADIANCE_CELL_BINS && Bins[Lane] > 0u)

@@ -11,6 +11,14 @@ uint GetThread() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupI
 
 uint GetSlotCount(FRadianceGrid Grid) { return (Grid.BucketMask + 1u) * RADIANCE_CELL_BUCKET; }
 
+// Notes of votes: those of this frame's pixels, and of updates of the frame before.
+uint CountNotes(FRadianceGrid Grid) { return Grid.VoteCount + RADIANCE_CELL_MOST_UPDATES; }
+FAddress GetNote(FRadianceGrid Grid, uint Number)
+{
+	bool bPixel = Number < Grid.VoteCount;
+	return GetVoteNote(bPixel ? Grid.Votes : Grid.UpdateVotes, bPixel ? Number : Number - Grid.VoteCount);
+}
+
 const uint YoungBins = 6u;   // of coarse cells, and of fine ones that know little
 const uint YoungCoarse = 9u; // count, from about 30 updates, up to which a coarse cell, which stands in for many, comes first
 

@@ -9,11 +9,9 @@ const uint FurtherVotes = 64u; // of which one counts: what has nearer ones no l
 void main()
 {
 	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
-	uint Thread = GetThread();
-	if (Thread >= Grid.VoteCount + RADIANCE_CELL_MOST_UPDATES) { return; }
-	bool bPixel = Thread < Grid.VoteCount;
-	FRadianceVoteRef Votes = FRadianceVoteRef(bPixel ? Grid.Votes : Grid.UpdateVotes);
-	FRadianceVote Vote = Votes.Data[bPixel ? Thread : Thread - Grid.VoteCount];
+	uint Number = GetThread();
+	if (Number >= CountNotes(Grid)) { return; }
+	FRadianceVote Vote = FRadianceVoteRef(GetNote(Grid, Number)).Data[0];
 	if (Vote.Vote == 0u || Vote.Slot >= GetSlotCount(Grid)) { return; } // a table begins with zeroes
 	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 	FRadianceCell Cell = Cells.Data[Vote.Slot];

@@ -20,10 +20,9 @@ uint HashLookUps(FViewConstants View, uvec2 Pixel) { return HashPcg(Pixel.x + Ha
 // Votes: address of FRadianceVote[], of which the thread has Number; 0: it does not vote. Rank: see MakeRadianceVote. Hash: random.
 void BeginRadianceLookUps(FAddress Grid, FViewConstants View, FAddress Votes, uint Number, uint Rank, uint Hash)
 {
-	const uint VoteBytes = 28u;
 	RadianceGrid = Grid;
 	RadianceCamera = View.CameraPosition;
-	RadianceVoter = FRadianceVoter(Votes != FAddress(0) ? Votes + FAddress(Number) * FAddress(VoteBytes) : FAddress(0), Rank, Hash);
+	RadianceVoter = FRadianceVoter(Votes != FAddress(0) ? GetVoteNote(Votes, Number) : FAddress(0), Rank, Hash);
 }
 
 // For rays that leave from what a pixel shows, of which each 2×2 pixels have a voter from FirstVoter on. Grid may be 0.

@@ -55,7 +55,7 @@ LANTERN_ASSERT_SIZE(FRadianceResult, 28);
 // A look-up that voted. The one whose vote wins gives the cell its place.
 struct FRadianceVote
 {
-	uint Slot; // NO_RADIANCE_CELL: there was no look-up
+	uint Slot; // NO_RADIANCE_CELL: there was no look-up; NEW_RADIANCE_CELL | name of a key: the cell is new, and has no slot yet
 	uint Vote;
 	ivec3 Place;
 	uint GeometricNormal, Normal; // by PackOct24
@@ -65,6 +65,7 @@ LANTERN_ASSERT_SIZE(FRadianceVote, 28);
 #define RADIANCE_SEED_SHIFT 8u // log2 of the steps of what random numbers of a cell are made of
 
 #define NO_RADIANCE_CELL 0xffffffffu
+#define NEW_RADIANCE_CELL 0x80000000u
 
 #define RADIANCE_CELL_MOST_EVENTS 64u
 
@@ -95,7 +96,7 @@ struct FRadianceCellStatistics
 	uint Live;    // cells in use
 	uint Young;   // of these, such as pixels look up that have had few updates and come before all others
 	uint Updated; // updates, of all rounds
-	uint Full;    // votes for a cell that found no room at its level
+	uint Full;    // look-ups and votes that found no room for a cell at its level
 	uint Found;   // look-ups that ended in the cell of their place
 	uint Coarse;  // that ended in a coarse one instead
 	uint Missed;  // that ended in none: the path went on
@@ -123,7 +124,7 @@ LANTERN_ASSERT_SIZE(FRadianceAuditPath, 12);
 // The table as shaders see it, one block a frame.
 struct FRadianceGrid
 {
-	FAddress Keys;        // uint[]: hash of a cell's place; 0: the slot is free
+	FAddress Keys;        // uint[]: hash of a cell's place; 0: the slot is free. Those of earlier frames are above all others
 	FAddress Cells;       // FRadianceCell[]
 	FAddress Votes;       // FRadianceVote[VoteCount]
 	FAddress UpdateVotes; // FRadianceVote[RADIANCE_CELL_MOST_UPDATES]: of updates, which count in the next frame

@@ -227,6 +227,15 @@ TEST_F(FRadianceCellsTest, TheSameBitsAgain)
 	ExpectTheSameBitsAgain(Scene, View);
 }
 
+// Far more cells ask for room than there is: which of them get it must not depend on the order of threads.
+TEST_F(FRadianceCellsTest, TheSameBitsAgainWithAFullTable)
+{
+	REQUIRE_SCENE(Scene, "cornell/cornell.gltf");
+	SetVariable("r.RT.GI.Cells.Capacity", "512");
+	SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "1000000");
+	ExpectTheSameBitsAgain(Scene, LookAt({0, 1, 3.4}, {0, 1, 0}, 0.7f, 32, 32));
+}
+
 } // namespace
 
 } // namespace Lantern

@@ -304,7 +304,7 @@ TEST_F(FRendererLackTest, RadianceCellsAreThereForRoutesThatEndInThem)
 	Cells.Settings = {{"r.RT.GI", "3"}};
 	const FNames Without = Make(BruteForce), With = Make(Cells);
 	EXPECT_FALSE(HasPart(Without, "RadianceCell"));
-	for (const char* Part : {"Clear", "Votes", "Age", "Cut", "List", "UpdateAndDiffuseGIDeferred", "Commit"})
+	for (const char* Part : {"Clear", "NewCells", "Votes", "Age", "Cut", "List", "UpdateAndDiffuseGIDeferred", "Commit"})
 	{
 		EXPECT_TRUE(HasPart(With, std::string("pass RadianceCells") + Part)) << Part;
 	}

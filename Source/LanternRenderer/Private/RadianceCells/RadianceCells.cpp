@@ -86,7 +86,7 @@ struct FRadianceWork
 
 FShaderSource MakeSource(const char* Name) { return MakeComputeSource(std::string("RadianceCells/") + Name + ".comp"); }
 
-constexpr const char* SourceNames[] = {"Votes", "Age", "Cut", "List", "ListAgain", "Commit"};
+constexpr const char* SourceNames[] = {"NewCells", "Votes", "Age", "Cut", "List", "ListAgain", "Commit"};
 
 bool AreReady(const FFrameContext& Context)
 {
@@ -355,7 +355,9 @@ bool AddRadianceCellPasses(FFrameContext& Context, const FGBuffer& GBuffer, ERay
 	if (!Cells) { return false; }
 	const std::optional<FRayDispatch> Dispatch = FindUpdateDispatch(Context, Path);
 	if (!Dispatch) { return false; }
-	AddComputePass(Context, Cells, "Votes", Cells->Grid.VoteCount + RADIANCE_CELL_MOST_UPDATES);
+	const uint32_t Notes = Cells->Grid.VoteCount + RADIANCE_CELL_MOST_UPDATES;
+	AddComputePass(Context, Cells, "NewCells", Notes);
+	AddComputePass(Context, Cells, "Votes", Notes);
 	AddComputePass(Context, Cells, "Age", Cells->Slots);
 	AddComputePass(Context, Cells, "Cut", 1);
 	AddComputePass(Context, Cells, "List", Cells->Slots);
