@@ -3,8 +3,19 @@
 // the rest of their cells, and these rays look up cells as often as others.
 #version 460
 #include "RadianceCellSlots.glsl"
+#include "../Library/MovedShare.glsl"
 
 const uint FurtherVotes = 64u; // of which one counts: what has nearer ones no longer follows the others
+
+bool IsInMover(FRadianceGrid Grid, vec3 P)
+{
+	for (uint I = 0u; I < Grid.MoverCount; ++I)
+	{
+		FMovedCaster Mover = FMovedCasterRef(Grid.Movers).Data[I];
+		if (distance(NearestOnWay(Mover, P), P) <= Mover.Radius) { return true; }
+	}
+	return false;
+}
 
 void main()
 {
@@ -18,7 +29,8 @@ void main()
 	if (Cell.Vote != Vote.Vote) { return; }
 	uint Rank = RankOfVote(Vote.Vote);
 	bool bLucky = (Vote.Vote & (FurtherVotes - 1u)) == 0u;
-	if (RadianceCellCount(Cell.State) > 0u && Rank > UnpackRank(Cell.From) && !bLucky) { return; }
+	if (RadianceCellCount(Cell.State) > 0u && Rank > UnpackRank(Cell.From) && !bLucky &&
+	    !IsInMover(Grid, FromRadianceSteps(Grid, Vote.Place))) { return; }
 	Cells.Data[Vote.Slot].Place = Vote.Place;
 	Cells.Data[Vote.Slot].GeometricNormal = Vote.GeometricNormal | (Cell.GeometricNormal & ~NormalMask);
 	Cells.Data[Vote.Slot].Normal = Vote.Normal | (Cell.Normal & ~NormalMask);
