@@ -53,12 +53,12 @@ struct FRadianceKey
 };
 
 const uint NoSide = 6u;
-const uint NameCoarse = 1u << 12u, NameSide = 8u; // a name is level | side | coarse
+const uint NameSide = 8u, NameSides = 0xfu << NameSide, NameCoarse = 1u << 12u, NameBehind = 1u << 13u; // a name is level | side | …
 
 // Returns the key of a cell at a place. Name: of another key.
 FRadianceKey MakeNamedKey(FRadianceGrid Grid, ivec3 Steps, uint Name)
 {
-	uint Shift = RADIANCE_CELL_FINEST_SHIFT + (Name & 0xffu), Side = (Name & ~NameCoarse) >> NameSide;
+	uint Shift = RADIANCE_CELL_FINEST_SHIFT + (Name & 0xffu), Side = (Name & NameSides) >> NameSide;
 	ivec3 Cell = Steps >> Shift;
 #ifndef NO_LAYERS // r.RT.Debug.GI.Layers
 	uint Axis = Side >> 1u;
@@ -196,6 +196,7 @@ struct FCellLight
 struct FRadianceQuery
 {
 	vec3 Position;  // that rays may start from, relative to the scene's origin, metres
+	vec3 Seen;      // from where the cell's place must be seen: Position, or near it
 	vec3 GeometricNormal, Normal;
 	float FromCamera; // distance, metres
 	float RayLength;  // of the ray that asks, metres
@@ -234,6 +235,37 @@ void NoteVote(FRadianceQuery Query, FRadianceVoter Voter, uint Slot, uint Vote, 
 	FRadianceVoteRef(Voter.Note).Data[0] = FRadianceVote(Slot, Vote, Steps, PackOct24(Query.GeometricNormal), PackOct24(Query.Normal));
 }
 
+#ifdef SEES_CELLS
+const uint TestedLookUps = 4u; // of which one finds out whether it can see the cell's place
+
+bool IsHidden(FRadianceGrid Grid, FRadianceQuery Query, FRadianceCell Cell, float Lift); // of the includer
+
+// Lets a look-up pass by the place of its cell if it cannot see it. Cells that lie on both sides of what is thin would pass light through it.
+// There is then a second cell for those that do not see the first one's place. Returns whether the look-up may have the cell in Slot.
+bool ChooseSide(FRadianceGrid Grid, FRadianceQuery Query, ivec3 Steps, uint Hash, inout FRadianceKey Key, inout uint Slot, inout bool bFull)
+{
+	if (Query.bFoliage) { return true; }
+	bool bTested = (HashPcg(Hash ^ HashPlace(Grid, Steps, VoteShift)) & (TestedLookUps - 1u)) == 0u;
+	float Lift = 0.125 * RADIANCE_CELL_FINEST * exp2(float(Key.Name & 0xffu));
+	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
+	for (uint Side = 0u; Side < 2u && Slot != NO_RADIANCE_CELL; ++Side)
+	{
+		FRadianceCell Cell = Cells.Data[Slot];
+		bool bContested = Cell.Hidden == RADIANCE_CELL_CONTESTED;
+		if ((!bContested && !bTested) || !IsHidden(Grid, Query, Cell, Lift)) { return true; }
+		if (!bContested)
+		{
+			Cells.Data[Slot].Hidden = RADIANCE_CELL_HIDDEN_NOW; // all threads write the same, and who reads it does as before
+			return true;
+		}
+		if (Side == 1u) { return false; }
+		Key = MakeNamedKey(Grid, Steps, Key.Name | NameBehind);
+		Slot = FindRadianceCell(Grid, Key, bFull);
+	}
+	return true;
+}
+#endif
+
 // Returns the slot of the query's cell, or NO_RADIANCE_CELL. A full bucket gives the cell to the next coarser level.
 uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, uint Level, bool bCoarse)
 {
@@ -246,6 +278,9 @@ uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vo
 		                                   Query.bFoliage);
 		bool bFull;
 		uint Slot = FindRadianceCell(Grid, Key, bFull);
+#ifdef SEES_CELLS
+		if (!ChooseSide(Grid, Query, Steps, Voter.Hash, Key, Slot, bFull)) { return NO_RADIANCE_CELL; }
+#endif
 		if (Slot == NO_RADIANCE_CELL && bFull)
 		{
 			if (Grid.Statistics != FAddress(0)) { atomicAdd(FRadianceStatisticsRef(Grid.Statistics).Data.Full, 1u); }

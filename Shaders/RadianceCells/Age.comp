@@ -26,10 +26,12 @@ void main()
 			Cells.Data[Slot].State = 0u;
 			Cells.Data[Slot].Light = 0u;
 			Cells.Data[Slot].From = 0u;
+			Cells.Data[Slot].Hidden = 0u;
 		}
 		else
 		{
 			if (bNew) { Keys.Data[Slot] = Key | SettledKey; }
+			if (Cell.Hidden == RADIANCE_CELL_HIDDEN_NOW) { Cells.Data[Slot].Hidden = RADIANCE_CELL_CONTESTED; }
 			atomicAdd(Bins[GetBin(Grid, Cell)], 1u);
 		}
 	}

@@ -1,4 +1,5 @@
 // How paths end in radiance cells (RADIANCE_CELLS): what one thread's look-ups share.
+// SEES_CELLS: look-ups take the light of cells whose place they can see (r.RT.GI.Cells.Sight).
 // SMOOTH_RADIANCE: cells are seen without a filter behind, and look-ups interpolate between them.
 #ifndef LANTERN_RADIANCE_LOOK_UPS_GLSL
 #define LANTERN_RADIANCE_LOOK_UPS_GLSL
@@ -12,6 +13,19 @@ float RadianceNear = 0.0;     // FRadianceQuery::NearCells of first hits
 float RadianceRest = 1.0;     // weight of what a path finds that has met no cell; 0: it ends
 #ifdef DEFERS_PATHS
 bool bRadianceDeferred = false; // a path of this thread has met no cell
+#endif
+
+#ifdef SEES_CELLS
+// Lift: of the ray above the surface, metres, since the cell's place may lie beyond a bulge of it.
+bool IsHidden(FRadianceGrid Grid, FRadianceQuery Query, FRadianceCell Cell, float Lift)
+{
+	vec3 Normal = UnpackOct24(Cell.GeometricNormal), From = Query.Seen + Query.GeometricNormal * Lift;
+	vec3 Way = FromRadianceSteps(Grid, Cell.Place) + Normal * Lift - From;
+	float Length = length(Way);
+	if (Length < Lift) { return false; }
+	FSceneConstants Scene = FSceneRef(Grid.Scene).Data;
+	return Transmittance(Scene, MASK_LOCAL_CASTERS, From, Way / Length, Length) <= 0.0;
+}
 #endif
 
 // Returns the hash for the votes and the levels of a pixel's look-ups.
@@ -131,7 +145,7 @@ bool LookUpPlace(vec3 P, vec3 Ng, vec3 N, float RayLength, float U, out FCellLig
 	OutLight = FCellLight(vec3(0.0), vec3(0.0));
 	if (RadianceGrid == FAddress(0)) { return false; }
 	FRadianceGrid Grid = FRadianceGridRef(RadianceGrid).Data;
-	FRadianceQuery Query = FRadianceQuery(P, Ng, N, distance(P, RadianceCamera), RayLength, false, 0.0);
+	FRadianceQuery Query = FRadianceQuery(P, P, Ng, N, distance(P, RadianceCamera), RayLength, false, 0.0);
 	FRadianceVoter Voter = FRadianceVoter(FAddress(0), 0u, 0u);
 	if ((RadianceVoter.Hash & 0x10000u) != 0u) // what lies behind the place needs votes as well
 	{
@@ -149,6 +163,7 @@ bool LookUpPlace(vec3 P, vec3 Ng, vec3 N, float RayLength, float U, out FCellLig
 FRadianceQuery TurnQuery(FRadianceQuery Query)
 {
 	Query.Position += BackStep;
+	Query.Seen = Query.Position;
 	Query.GeometricNormal = -Query.GeometricNormal;
 	Query.Normal = -Query.Normal;
 	return Query;
@@ -210,7 +225,7 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 Loca
 #endif
 	if (RadianceGrid == FAddress(0) || (!bLast && IsMirror(Brdf) && SpecularProbability(Brdf, LocalV) > 0.0)) { return false; }
 	FRadianceGrid Grid = FRadianceGridRef(RadianceGrid).Data;
-	FRadianceQuery Query = FRadianceQuery(P, Hit.GeometricNormal, Hit.Normal, distance(P, RadianceCamera), Hit.Distance,
+	FRadianceQuery Query = FRadianceQuery(P, P, Hit.GeometricNormal, Hit.Normal, distance(P, RadianceCamera), Hit.Distance,
 	                                      (Hit.Flags & HIT_FOLIAGE) != 0u, NearCells);
 	FRadianceVoter Voter = RadianceVoter;
 	RadianceVoter.Note = FAddress(0);

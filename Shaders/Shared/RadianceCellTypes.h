@@ -40,8 +40,13 @@ struct FRadianceCell
 	uint Normal;          // there: by PackOct24, and PackTrend's bits
 	uint Light; // mean of irradiance / π, by PackRgbe
 	uint From;  // mean direction that it comes from, each weighted by its luminance, by PackMeanDirection; its length says how alike they are. And PackRank's bits
+	uint Hidden; // 0, RADIANCE_CELL_HIDDEN_NOW or RADIANCE_CELL_CONTESTED
 };
-LANTERN_ASSERT_SIZE(FRadianceCell, 36);
+LANTERN_ASSERT_SIZE(FRadianceCell, 40);
+
+// FRadianceCell::Hidden: whether a look-up came from where the cell's place cannot be seen, in this frame or in one before.
+#define RADIANCE_CELL_HIDDEN_NOW 1u
+#define RADIANCE_CELL_CONTESTED 2u
 
 // What an update has found.
 struct FRadianceResult
@@ -155,8 +160,9 @@ struct FRadianceGrid
 	float Moment;         // frames by which what a cell remembers of its light lags behind it; 0: nothing has changed for long
 	uint Rounds;          // in which this frame updates cells whose light changes, 1 to RADIANCE_CELL_MOST_ROUNDS
 	float StillWindow;    // frames over which light is averaged that does not change
+	FAddress Scene;       // FSceneConstants
 };
-LANTERN_ASSERT_SIZE(FRadianceGrid, 184);
+LANTERN_ASSERT_SIZE(FRadianceGrid, 192);
 
 // Constants of the passes that keep the table.
 struct FRadianceCellConstants

@@ -146,6 +146,45 @@ TEST_F(FRadianceCellsTest, NoLightThroughWallsWithoutThickness)
 }
 
 // Behind a turn of the camera, the cells that it saw live on. Updates are for those that paths ask for.
+// The sun lights a floor in front of a wall without thickness, and the floor runs on behind it, where no light comes. Cells of the floor lie
+// on both sides, and what looks them up sees one of them alone.
+TEST_F(FRadianceCellsTest, NoLightUnderAWallThatStandsOnAFloor)
+{
+	FTestScene Scene("wall on a floor");
+	const int32_t White = Scene.AddLambert(glm::vec3(0.8f));
+	const auto MakeWall = [&](float Z, float Height) -> FTestScene::FQuad {
+		return {White, {{-4, 0, Z}, {4, 0, Z}, {4, Height, Z}, {-4, Height, Z}}};
+	};
+	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(White, 4.0f), MakeWall(0.0f, 3.0f), MakeWall(-3.0f, 2.4f)}));
+	ASSERT_TRUE(Load(Scene.Scene));
+	SetSky(glm::vec3(0));
+	SetSun(0.0, 8.0f, {0, -0.17, -0.985});
+	const FView View = LookAt({0, 9, 3}, {0, 1, -1.5}, 0.6f, 48, 48);
+	const FImage Reference = TraceSignal(ESignal::DiffuseGI, View, 64, 11);
+	double Behind[2];
+	for (const bool bSight : {false, true})
+	{
+		SetVariable("r.RT.GI.Cells.Sight", bSight ? "1" : "0");
+		constexpr uint32_t Warm = 300;
+		RenderSignal(ESignal::DiffuseGI, View, Warm);
+		const FImage Picture = RenderSignal(ESignal::DiffuseGI, View, 16, Warm);
+		double Dark = 0.0, Lit = 0.0;
+		size_t DarkPixels = 0;
+		for (size_t P = 0; P < Picture.Pixels.size(); P += 3)
+		{
+			const bool bDark = Reference.Pixels[P] <= 0.0f;
+			(bDark ? Dark : Lit) += Picture.Pixels[P];
+			DarkPixels += bDark ? 1 : 0;
+		}
+		ASSERT_GT(DarkPixels, 500u);
+		ASSERT_GT(Lit, 0.0);
+		Behind[bSight] = Dark / double(DarkPixels) / (Lit / double(Picture.Pixels.size() / 3 - DarkPixels));
+		PrintFigure(fmt::format("wall on a floor, sight {}: behind / before {:.2e}", bSight, Behind[bSight]));
+	}
+	EXPECT_LT(Behind[true], 1.0e-3); // design, case 1, for walls without thickness
+	EXPECT_GT(Behind[false], 3.0e-3) << "what is tested shows";
+}
+
 TEST_F(FRadianceCellsTest, WhatNobodyAsksForWaits)
 {
 	SetVariable("r.RT.GI.Cells.Count", "1");

@@ -22,7 +22,7 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarCapacity("r.RT.GI.Cells.Capacity", 1 << 20,
-    "Number of radiance cells that there is memory for, 40 bytes each, rounded to a power of two.", {1 << 8, 1 << 24});
+    "Number of radiance cells that there is memory for, 44 bytes each, rounded to a power of two.", {1 << 8, 1 << 24});
 TRTConsoleVariable<float> CVarUpdates("r.RT.GI.Cells.UpdatesPerSecond", 2.5e6f,
     "Updates of radiance cells in a second, each of one path. A frame has 61,440 at most.", {1000, 1e8f});
 TRTConsoleVariable<float> CVarSizeAngle("r.RT.GI.Cells.SizeAngle", 0.02f,
@@ -46,6 +46,9 @@ TRTConsoleVariable<bool> CVarAskedFirst("r.RT.Debug.GI.AskedFirst", true,
 TRTConsoleVariable<bool> CVarLayers("r.RT.Debug.GI.Layers", true,
     "Planted fault. Off: radiance cells are as thick as wide and have no side, so that light leaks through walls.");
 
+TRTConsoleVariable<bool> CVarSight("r.RT.GI.Cells.Sight", false,
+    "Paths take the light of radiance cells whose place they can see. Cells that lie on both sides of what is thin become two. Much less "
+    "light leaks there, and paths take up to twice as long.");
 TRTConsoleVariable<bool> CVarChange("r.RT.GI.Cells.Change", true,
     "Radiance cells pass on that their light changes, to cells and pixels that look them up, while the scene changes and two seconds "
     "after.");
@@ -110,6 +113,7 @@ FRadianceGrid MakeGrid(const FFrameContext& Context, uint32_t Slots, const FRadi
 {
 	const float Delta = std::max(Context.View.DeltaSeconds, 1.0e-3f);
 	FRadianceGrid Grid{};
+	Grid.Scene = Context.Pass.Scene;
 	Grid.Origin = ToGridSteps(Context.Scene.GetOrigin());
 	Grid.Camera = ToGridSteps(MakeGatherView(Context.View).Position) >> glm::ivec3(RADIANCE_SEED_SHIFT);
 	Grid.BucketMask = Slots / RADIANCE_CELL_BUCKET - 1;
@@ -305,6 +309,7 @@ void AddRadianceCellDefines(FShaderDefines& InOut)
 	InOut.emplace_back("RADIANCE_CELLS", "1");
 	if (!CVarCaustics.GetOnRenderThread()) { InOut.emplace_back(NoCausticsDefine, "1"); }
 	if (!CVarLayers.GetOnRenderThread()) { InOut.emplace_back("NO_LAYERS", "1"); }
+	if (CVarSight.GetOnRenderThread()) { InOut.emplace_back("SEES_CELLS", "1"); }
 	if (!CVarDirection.GetOnRenderThread()) { InOut.emplace_back("NO_CELL_DIRECTION", "1"); }
 	if (!CVarLastMirror.GetOnRenderThread()) { InOut.emplace_back("NO_LAST_MIRROR", "1"); }
 }
