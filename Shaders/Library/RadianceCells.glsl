@@ -52,19 +52,26 @@ struct FRadianceKey
 	uint Name;      // which of the cells at its place it is, see MakeNamedKey
 };
 
-const uint NoSide = 6u;
+const uint NoSide = 6u, AllSides = 7u; // of thick cells, and of such as are not layered
 const uint NameSide = 8u, NameSides = 0xfu << NameSide, NameCoarse = 1u << 12u, NameBehind = 1u << 13u; // a name is level | side | …
+
+// Whether it can be FRadianceKey::Name.
+bool IsKeyName(uint Name)
+{
+	uint Side = (Name & NameSides) >> NameSide;
+	return (Name & 0xffu) < RADIANCE_CELL_LEVELS && Side <= AllSides && Name < 2u * NameBehind;
+}
 
 // Returns the key of a cell at a place. Name: of another key.
 FRadianceKey MakeNamedKey(FRadianceGrid Grid, ivec3 Steps, uint Name)
 {
 	uint Shift = RADIANCE_CELL_FINEST_SHIFT + (Name & 0xffu), Side = (Name & NameSides) >> NameSide;
-	ivec3 Cell = Steps >> Shift;
-#ifndef NO_LAYERS // r.RT.Debug.GI.Layers
-	uint Axis = Side >> 1u;
-	if (Side == NoSide) { Cell = Steps >> (Shift + 1u); }
-	else { Cell[Axis] = Steps[Axis] >> (Shift - RADIANCE_CELL_THICKNESS); }
-#endif
+	ivec3 Cell = Steps >> (Side == NoSide ? Shift + 1u : Shift);
+	if (Side < NoSide)
+	{
+		uint Axis = Side >> 1u;
+		Cell[Axis] = Steps[Axis] >> (Shift - RADIANCE_CELL_THICKNESS);
+	}
 	uvec4 Hash = HashPcg4(uvec4(uvec3(Cell), Name));
 	uint Check = clamp(Hash.y & ~SettledKey, 1u, (LostKey & ~SettledKey) - 1u);
 	return FRadianceKey((Hash.x & Grid.BucketMask) * RADIANCE_CELL_BUCKET, Check, Name);
@@ -74,12 +81,12 @@ FRadianceKey MakeNamedKey(FRadianceGrid Grid, ivec3 Steps, uint Name)
 // share the light.
 FRadianceKey MakeRadianceKey(FRadianceGrid Grid, ivec3 Steps, uint Level, bool bCoarse, vec3 Normal, bool bThick)
 {
-#ifndef NO_LAYERS
+#ifndef NO_LAYERS // r.RT.Debug.GI.Layers
 	vec3 Size = abs(Normal);
 	uint Axis = Size.x > Size.y ? (Size.x > Size.z ? 0u : 2u) : (Size.y > Size.z ? 1u : 2u);
 	uint Side = bThick ? NoSide : Axis * 2u + (Normal[Axis] < 0.0 ? 1u : 0u);
 #else
-	uint Side = 0u;
+	const uint Side = AllSides;
 #endif
 	return MakeNamedKey(Grid, Steps, Level | (Side << NameSide) | (bCoarse ? NameCoarse : 0u));
 }
@@ -141,7 +148,7 @@ uint RankOfVote(uint Vote) { return 7u - (Vote >> 29u); }
 
 // The rank of the look-up that has given a cell its place, in the bits that PackMeanDirection leaves. It ends at the greatest.
 const uint RankShift = 30u, GreatestRank = 4u;
-const uint PixelRank = 2u; // of what pixels look up; what updates look up has greater ones
+const uint NearRank = 2u; // of what pixels look up, and what the updates of cells do that their diffuse paths end in
 uint UnpackRank(uint From) { return (From >> RankShift) + 1u; }
 uint PackRank(uint Rank) { return (clamp(Rank, 1u, GreatestRank) - 1u) << RankShift; }
 const uint MeanDirectionMask = (1u << RankShift) - 1u;

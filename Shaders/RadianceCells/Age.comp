@@ -26,6 +26,8 @@ void main()
 			Cells.Data[Slot].State = 0u;
 			Cells.Data[Slot].Light = 0u;
 			Cells.Data[Slot].From = 0u;
+			Cells.Data[Slot].GeometricNormal = 0u;
+			Cells.Data[Slot].Normal = 0u;
 			Cells.Data[Slot].Hidden = 0u;
 		}
 		else

@@ -8,9 +8,9 @@ void main()
 	uint Number = GetThread();
 	if (Number >= CountNotes(Grid)) { return; }
 	FRadianceVoteRef Note = FRadianceVoteRef(GetNote(Grid, Number));
-	uint Named = Note.Data[0].Slot;
-	if (Named == NO_RADIANCE_CELL || Named < NEW_RADIANCE_CELL) { return; }
-	uint Name = Named & ~NEW_RADIANCE_CELL, Slot = FindNewKey(Grid, MakeNamedKey(Grid, Note.Data[0].Place, Name));
+	uint Named = Note.Data[0].Slot, Name = Named & ~NEW_RADIANCE_CELL;
+	if (Named < NEW_RADIANCE_CELL || !IsKeyName(Name) || Note.Data[0].Vote == 0u) { return; } // also notes that nobody has written
+	uint Slot = FindNewKey(Grid, MakeNamedKey(Grid, Note.Data[0].Place, Name));
 	Note.Data[0].Slot = Slot;
 	if (Slot == NO_RADIANCE_CELL)
 	{

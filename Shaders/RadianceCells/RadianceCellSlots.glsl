@@ -22,7 +22,7 @@ FAddress GetNote(FRadianceGrid Grid, uint Number)
 const uint YoungBins = 6u;   // of coarse cells, and of fine ones that know little
 const uint YoungCoarse = 9u; // count, from about 30 updates, up to which a coarse cell, which stands in for many, comes first
 
-const uint Ahead = 8u; // frames by which a cell that is seen, young or changes comes before others that have waited for as long
+const uint Ahead = 8u; // frames by which a cell that is young or changes comes before others that have waited for as long; near ones twice
 const float NoiseOfTrend = 0.1; // which a trend has without a change
 
 // Returns the bin of cells that have waited for so many frames.
@@ -32,18 +32,21 @@ uint GetBinOfWait(uint Frames)
 	return YoungBins + Longest - min(Frames, Longest);
 }
 
-// Bins in order of urgency: cells that pixels look up and that know little, then those that have waited longest. The last one is never
-// updated. Cells that updates look up ask for more in turn, without an end in an open landscape: they must not keep waiting what is seen.
+// Bins in order of urgency: near cells that know little, then those that have waited longest. The last one is never updated. Cells that updates
+// look up ask for more in turn, without an end in an open landscape: they must not keep waiting what pixels look up (NearRank).
 uint GetBin(FRadianceGrid Grid, FRadianceCell Cell)
 {
 	uint State = Cell.State;
 	uint Count = RadianceCellCount(State);
 	bool bCoarse = (State & RADIANCE_CELL_COARSE) != 0u;
 	if (Count > 0u && RadianceTurnsSince(Grid, RadianceCellAsked(State)) > Grid.AskedTurns) { return RADIANCE_CELL_BINS - 1u; }
-	bool bSeen = UnpackRank(Cell.From) <= PixelRank, bYoung = Count < (bCoarse ? YoungCoarse : YoungBins - 1u);
-	if (bSeen && bYoung) { return bCoarse ? 0u : Count + 1u; }
+	// What changes averages over few updates, and has no higher count.
+	float Grown = min(float(bCoarse ? YoungCoarse : YoungBins - 1u), Grid.Window);
+	bool bNear = UnpackRank(Cell.From) <= NearRank, bYoung = float(Count) < Grown;
+	if (bNear && bYoung) { return bCoarse ? 0u : Count + 1u; }
 	uint Wait = RadianceTurnsSince(Grid, RadianceCellUpdated(State));
-	if (bSeen || bYoung) { Wait += Grid.LeastWait + Ahead; }
+	if (bNear && Wait >= Grid.LeastWait) { Wait += 2u * Ahead; }
+	if (bYoung) { Wait += Grid.LeastWait + Ahead; }
 	if (Grid.Rounds > 1u && abs(UnpackTrend(Cell.Normal)) > NoiseOfTrend) { Wait += Grid.LeastWait + Ahead; }
 	return GetBinOfWait(Wait);
 }

@@ -7,12 +7,13 @@
 
 const uint FurtherVotes = 64u; // of which one counts: what has nearer ones no longer follows the others
 
+// Whether something has moved around a place, so that the cell's own place may now lie in the air or in an object.
 bool IsInMover(FRadianceGrid Grid, vec3 P)
 {
 	for (uint I = 0u; I < Grid.MoverCount; ++I)
 	{
 		FMovedCaster Mover = FMovedCasterRef(Grid.Movers).Data[I];
-		if (distance(NearestOnWay(Mover, P), P) <= Mover.Radius) { return true; }
+		if (Mover.bCasts != 0u && distance(NearestOnWay(Mover, P), P) <= Mover.Radius) { return true; }
 	}
 	return false;
 }

@@ -44,7 +44,7 @@ void BeginPixelLookUps(FAddress Grid, FViewConstants View, uvec2 Pixel, uint Fir
 {
 	if (Grid == FAddress(0)) { return; }
 	FAddress Votes = VotesInTurn(View, Pixel) ? FRadianceGridRef(Grid).Data.Votes : FAddress(0);
-	BeginRadianceLookUps(Grid, View, Votes, FirstVoter + VoterOfPixel(View, Pixel), PixelRank, HashLookUps(View, Pixel));
+	BeginRadianceLookUps(Grid, View, Votes, FirstVoter + VoterOfPixel(View, Pixel), NearRank, HashLookUps(View, Pixel));
 }
 
 // Lets only some pixels follow paths that have met no cell, and weighs what they find.

@@ -99,7 +99,7 @@ LANTERN_ASSERT_SIZE(FRadianceCellCounters, 332);
 struct FRadianceCellStatistics
 {
 	uint Live;    // cells in use
-	uint Young;   // of these, such as pixels look up that have had few updates and come before all others
+	uint Young;   // of these, such of rank 1 and 2 that have had few updates and come before all others
 	uint Updated; // updates, of all rounds
 	uint Full;    // look-ups and votes that found no room for a cell at its level
 	uint Found;   // look-ups that ended in the cell of their place

@@ -145,7 +145,6 @@ TEST_F(FRadianceCellsTest, NoLightThroughWallsWithoutThickness)
 	}
 }
 
-// Behind a turn of the camera, the cells that it saw live on. Updates are for those that paths ask for.
 // The sun lights a floor in front of a wall without thickness, and the floor runs on behind it, where no light comes. Cells of the floor lie
 // on both sides, and what looks them up sees one of them alone.
 TEST_F(FRadianceCellsTest, NoLightUnderAWallThatStandsOnAFloor)
@@ -185,6 +184,7 @@ TEST_F(FRadianceCellsTest, NoLightUnderAWallThatStandsOnAFloor)
 	EXPECT_GT(Behind[false], 3.0e-3) << "what is tested shows";
 }
 
+// Behind a turn of the camera, the cells that it saw live on. Updates are for those that paths ask for.
 TEST_F(FRadianceCellsTest, WhatNobodyAsksForWaits)
 {
 	SetVariable("r.RT.GI.Cells.Count", "1");
@@ -263,7 +263,11 @@ TEST_F(FRadianceCellsTest, TheSameBitsAgain)
 {
 	REQUIRE_SCENE(Scene, "cornell/cornell.gltf");
 	const FView View = LookAt({0, 1, 3.4}, {0, 1, 0}, 0.7f, 32, 32);
-	ExpectTheSameBitsAgain(Scene, View);
+	for (const char* const Sight : {"0", "1"})
+	{
+		SetVariable("r.RT.GI.Cells.Sight", Sight);
+		ExpectTheSameBitsAgain(Scene, View);
+	}
 }
 
 // Far more cells ask for room than there is: which of them get it must not depend on the order of threads.
@@ -272,7 +276,9 @@ TEST_F(FRadianceCellsTest, TheSameBitsAgainWithAFullTable)
 	REQUIRE_SCENE(Scene, "cornell/cornell.gltf");
 	SetVariable("r.RT.GI.Cells.Capacity", "512");
 	SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "1000000");
+	SetVariable("r.RT.GI.Cells.Count", "1");
 	ExpectTheSameBitsAgain(Scene, LookAt({0, 1, 3.4}, {0, 1, 0}, 0.7f, 32, 32));
+	EXPECT_GT(GetEngine().GetRenderer().GetRadianceCells().Full, 100u) << "the table is full";
 }
 
 } // namespace

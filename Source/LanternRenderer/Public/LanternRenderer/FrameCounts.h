@@ -32,9 +32,9 @@ struct FRayCounts
 struct FRadianceCellCounts
 {
 	uint32_t Live = 0;    ///< cells in use
-	uint32_t Young = 0;   ///< of these, such as pixels look up that have had few updates and come before all others
+	uint32_t Young = 0;   ///< of these, such of rank 1 and 2 that have had few updates and come before all others
 	uint32_t Updated = 0; ///< cells
-	uint32_t Full = 0;    ///< votes for a cell that found no room at its level
+	uint32_t Full = 0;    ///< look-ups and votes that found no room for a cell at its level
 	uint32_t Found = 0;   ///< look-ups that ended in the cell of their place
 	uint32_t Coarse = 0;  ///< that ended in a coarse one instead
 	uint32_t Missed = 0;  ///< that ended in none: the path went on
