@@ -243,28 +243,17 @@ void NoteVote(FRadianceQuery Query, FRadianceVoter Voter, uint Slot, uint Vote, 
 }
 
 #ifdef SEES_CELLS
-const uint TestedLookUps = 4u; // of which one finds out whether it can see the cell's place
-
 bool IsHidden(FRadianceGrid Grid, FRadianceQuery Query, FRadianceCell Cell, float Lift); // of the includer
 
-// Lets a look-up pass by the place of its cell if it cannot see it. Cells that lie on both sides of what is thin would pass light through it.
-// There is then a second cell for those that do not see the first one's place. Returns whether the look-up may have the cell in Slot.
-bool ChooseSide(FRadianceGrid Grid, FRadianceQuery Query, ivec3 Steps, uint Hash, inout FRadianceKey Key, inout uint Slot, inout bool bFull)
+// Lets a look-up pass by a cell whose place it cannot see. Cells that lie on both sides of what is thin would pass light through it. Such
+// look-ups share a second cell. Returns whether the look-up may have the cell in Slot.
+bool ChooseSide(FRadianceGrid Grid, FRadianceQuery Query, ivec3 Steps, inout FRadianceKey Key, inout uint Slot, inout bool bFull)
 {
 	if (Query.bFoliage) { return true; }
-	bool bTested = (HashPcg(Hash ^ HashPlace(Grid, Steps, VoteShift)) & (TestedLookUps - 1u)) == 0u;
 	float Lift = 0.125 * RADIANCE_CELL_FINEST * exp2(float(Key.Name & 0xffu));
-	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
-	for (uint Side = 0u; Side < 2u && Slot != NO_RADIANCE_CELL; ++Side)
+	for (uint Side = 0u; Side < 2u; ++Side)
 	{
-		FRadianceCell Cell = Cells.Data[Slot];
-		bool bContested = Cell.Hidden == RADIANCE_CELL_CONTESTED;
-		if ((!bContested && !bTested) || !IsHidden(Grid, Query, Cell, Lift)) { return true; }
-		if (!bContested)
-		{
-			Cells.Data[Slot].Hidden = RADIANCE_CELL_HIDDEN_NOW; // all threads write the same, and who reads it does as before
-			return true;
-		}
+		if (Slot == NO_RADIANCE_CELL || !IsHidden(Grid, Query, FRadianceCellRef(Grid.Cells).Data[Slot], Lift)) { return true; }
 		if (Side == 1u) { return false; }
 		Key = MakeNamedKey(Grid, Steps, Key.Name | NameBehind);
 		Slot = FindRadianceCell(Grid, Key, bFull);
@@ -286,7 +275,7 @@ uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vo
 		bool bFull;
 		uint Slot = FindRadianceCell(Grid, Key, bFull);
 #ifdef SEES_CELLS
-		if (!ChooseSide(Grid, Query, Steps, Voter.Hash, Key, Slot, bFull)) { return NO_RADIANCE_CELL; }
+		if (!ChooseSide(Grid, Query, Steps, Key, Slot, bFull)) { return NO_RADIANCE_CELL; }
 #endif
 		if (Slot == NO_RADIANCE_CELL && bFull)
 		{

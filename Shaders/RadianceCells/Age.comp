@@ -28,12 +28,10 @@ void main()
 			Cells.Data[Slot].From = 0u;
 			Cells.Data[Slot].GeometricNormal = 0u;
 			Cells.Data[Slot].Normal = 0u;
-			Cells.Data[Slot].Hidden = 0u;
 		}
 		else
 		{
 			if (bNew) { Keys.Data[Slot] = Key | SettledKey; }
-			if (Cell.Hidden == RADIANCE_CELL_HIDDEN_NOW) { Cells.Data[Slot].Hidden = RADIANCE_CELL_CONTESTED; }
 			atomicAdd(Bins[GetBin(Grid, Cell)], 1u);
 		}
 	}

@@ -40,13 +40,8 @@ struct FRadianceCell
 	uint Normal;          // there: by PackOct24, and PackTrend's bits
 	uint Light; // mean of irradiance / π, by PackRgbe
 	uint From;  // mean direction that it comes from, each weighted by its luminance, by PackMeanDirection; its length says how alike they are. And PackRank's bits
-	uint Hidden; // 0, RADIANCE_CELL_HIDDEN_NOW or RADIANCE_CELL_CONTESTED
 };
-LANTERN_ASSERT_SIZE(FRadianceCell, 40);
-
-// FRadianceCell::Hidden: whether a look-up came from where the cell's place cannot be seen, in this frame or in one before.
-#define RADIANCE_CELL_HIDDEN_NOW 1u
-#define RADIANCE_CELL_CONTESTED 2u
+LANTERN_ASSERT_SIZE(FRadianceCell, 36);
 
 // What an update has found.
 struct FRadianceResult

@@ -22,7 +22,7 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarCapacity("r.RT.GI.Cells.Capacity", 1 << 20,
-    "Number of radiance cells that there is memory for, 44 bytes each, rounded to a power of two.", {1 << 8, 1 << 24});
+    "Number of radiance cells that there is memory for, 40 bytes each, rounded to a power of two.", {1 << 8, 1 << 24});
 TRTConsoleVariable<float> CVarUpdates("r.RT.GI.Cells.UpdatesPerSecond", 2.5e6f,
     "Updates of radiance cells in a second, each of one path. A frame has 61,440 at most.", {1000, 1e8f});
 TRTConsoleVariable<float> CVarSizeAngle("r.RT.GI.Cells.SizeAngle", 0.02f,
@@ -47,8 +47,8 @@ TRTConsoleVariable<bool> CVarLayers("r.RT.Debug.GI.Layers", true,
     "Planted fault. Off: radiance cells are as thick as wide and have no side, so that light leaks through walls.");
 
 TRTConsoleVariable<bool> CVarSight("r.RT.GI.Cells.Sight", false,
-    "Paths take the light of radiance cells whose place they can see. Cells that lie on both sides of what is thin become two. Much less "
-    "light leaks there, and paths take up to twice as long.");
+    "Paths take the light of radiance cells whose place they can see. Cells that lie on both sides of what is thin become two. Hardly any "
+    "light leaks there then, and paths take up to twice as long.");
 TRTConsoleVariable<bool> CVarChange("r.RT.GI.Cells.Change", true,
     "Radiance cells pass on that their light changes, to cells and pixels that look them up, while the scene changes and two seconds "
     "after.");
