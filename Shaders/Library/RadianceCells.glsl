@@ -251,14 +251,16 @@ bool ChooseSide(FRadianceGrid Grid, FRadianceQuery Query, ivec3 Steps, inout FRa
 {
 	if (Query.bFoliage) { return true; }
 	float Lift = 0.125 * RADIANCE_CELL_FINEST * exp2(float(Key.Name & 0xffu));
-	for (uint Side = 0u; Side < 2u; ++Side)
+	for (uint Side = 0u; Side < 2u; ++Side) // a loop, since shaders then hold one ray instead of two
 	{
+		if (Side == 1u)
+		{
+			Key = MakeNamedKey(Grid, Steps, Key.Name | NameBehind);
+			Slot = FindRadianceCell(Grid, Key, bFull);
+		}
 		if (Slot == NO_RADIANCE_CELL || !IsHidden(Grid, Query, FRadianceCellRef(Grid.Cells).Data[Slot], Lift)) { return true; }
-		if (Side == 1u) { return false; }
-		Key = MakeNamedKey(Grid, Steps, Key.Name | NameBehind);
-		Slot = FindRadianceCell(Grid, Key, bFull);
 	}
-	return true;
+	return false;
 }
 #endif
 
