@@ -84,7 +84,7 @@ bool FindDeferred(uint Number, out uvec2 OutThread)
 #ifdef DEFERS_PATHS
 void DeferThread(uvec2 Thread)
 {
-	FThreadListRef(Push.Deferred).Threads[ReserveThreads(Push.Deferred, 1u)] = Thread.y * LaunchWidth() + Thread.x;
+	MarkThread(Push.Deferred, BitOfThread(Thread, LaunchWidth()));
 }
 #endif
 

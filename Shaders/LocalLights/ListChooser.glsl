@@ -25,8 +25,7 @@ void ListChooser(FViewConstants View, FLocalPoint Point, bool bSurface, uvec2 Pi
 	if (bChooses && AnyChooses != 0u)
 	{
 		if (Place != 0u) { return; }
-		uint Entry = ReserveGroups(Push.Choices, 1u);
-		FThreadListRef(Push.Choices).Threads[Entry] = TileIndex(View, GROUP_TILE);
+		MarkThread(Push.Choices, BitOfThread(GROUP_TILE, (View.Width + TILE_SIZE - 1u) / TILE_SIZE));
 		return;
 	}
 	if (!bChooses)

@@ -19,5 +19,5 @@ void main()
 {
 	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
 	uint Slot = GetThread();
-	ListSlot(Grid, 0u, Slot, IsListed(Grid, Slot));
+	MarkSlot(Grid, IsListed(Grid, Slot));
 }

@@ -15,15 +15,14 @@ float GetShare(FRadianceGrid Grid, uint Round)
 void main()
 {
 	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
-	uint Number = GetThread(), Slot = 0u;
+	uint Number = GetThread();
 	bool bListed = false;
 	if (Number < CountListed(Grid, Push.Round - 1u))
 	{
 		uint Entry = FRadianceWordRef(Grid.List).Data[PlaceInList(Push.Round - 1u, Number)];
-		Slot = Entry & ~LivelySlot;
-		FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[Slot];
+		FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[Entry & ~LivelySlot];
 		uint Turn = Grid.Turn | (Push.Round << 12u);
 		bListed = (Entry & LivelySlot) != 0u && IsTakenByChance(Grid, Cell, Turn, GetShare(Grid, Push.Round));
 	}
-	ListSlot(Grid, Push.Round, Slot, bListed);
+	MarkSlot(Grid, bListed);
 }

@@ -1,6 +1,7 @@
-// Appends slots to the list of a round's updates: one atomic operation for each work group. Included behind RadianceCellSlots.glsl.
+// Marks threads whose slots a round updates; Order.comp lists them. Included behind RadianceCellSlots.glsl.
 
-shared uint Count, First;
+const uint MarkedWords = GROUP_SIZE / 32u;
+shared uint Marked[MarkedWords];
 
 // Turn: another one for each time that a cell is asked for.
 bool IsTakenByChance(FRadianceGrid Grid, FRadianceCell Cell, uint Turn, float Share)
@@ -9,13 +10,12 @@ bool IsTakenByChance(FRadianceGrid Grid, FRadianceCell Cell, uint Turn, float Sh
 }
 
 // All threads of a work group call it once.
-void ListSlot(FRadianceGrid Grid, uint Round, uint Slot, bool bListed)
+void MarkSlot(FRadianceGrid Grid, bool bListed)
 {
-	if (gl_LocalInvocationIndex == 0u) { Count = 0u; }
+	uint Lane = gl_LocalInvocationIndex;
+	if (Lane < MarkedWords) { Marked[Lane] = 0u; }
 	barrier();
-	uint Number = bListed ? atomicAdd(Count, 1u) : 0u;
+	if (bListed) { atomicOr(Marked[Lane >> 5u], 1u << (Lane & 31u)); }
 	barrier();
-	if (gl_LocalInvocationIndex == 0u && Count > 0u) { First = atomicAdd(FRadianceCountersRef(Grid.Counters).Data.Listed[Round], Count); }
-	barrier();
-	if (bListed && First + Number < Grid.Room) { FRadianceWordRef(Grid.List).Data[PlaceInList(Round, First + Number)] = Slot; }
+	if (Lane < MarkedWords) { FRadianceWordRef(Grid.Marks).Data[(GetThread() - Lane) / 32u + Lane] = Marked[Lane]; }
 }

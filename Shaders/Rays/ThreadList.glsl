@@ -1,4 +1,4 @@
-// Lists of threads: passes note who goes on, and a later launch has a thread for each (FThreadList).
+// Lists of threads: passes mark who goes on, OrderThreads.comp lists them, and a later launch has a thread for each (FThreadList).
 #ifndef LANTERN_THREAD_LIST_GLSL
 #define LANTERN_THREAD_LIST_GLSL
 
@@ -6,32 +6,34 @@
 #include "../Shared/RayQueueTypes.h"
 #include "../Shared/ThreadListTypes.h"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FThreadListRef
+// Words: BitWords of marks, and then entries.
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FThreadListRef
 {
 	FThreadList Header;
-	uint Threads[];
+	uint Words[];
 };
 
-// Returns the place of the first of Count entries, at least one, which the caller then writes to Threads. GroupSize: entries that a work
-// group takes.
-uint ReservePlaces(FAddress List, uint Count, uint GroupSize)
+// Returns the bit of a thread of a launch that is so wide. Tiles of threads follow one another.
+uint BitOfThread(uvec2 Thread, uint Width)
 {
-	uint Row = GroupSize * RAY_QUEUE_ROW_GROUPS;
-	uint First = atomicAdd(FThreadListRef(List).Header.Launch[0], Count);
-	uint Rows = (First + Count + Row - 1u) / Row - (First + Row - 1u) / Row;
-	if (Rows > 0u) { atomicAdd(FThreadListRef(List).Header.Groups[1], Rows); }
-	return First;
+	uvec2 Tile = Thread / THREAD_TILE, Inside = Thread % THREAD_TILE;
+	return (Tile.y * ((Width + THREAD_TILE - 1u) / THREAD_TILE) + Tile.x) * (THREAD_TILE * THREAD_TILE) + Inside.y * THREAD_TILE + Inside.x;
 }
-uint ReserveThreads(FAddress List, uint Count) { return ReservePlaces(List, Count, RAY_QUEUE_GROUP_SIZE); }
-// As ReserveThreads, where each entry has a work group of its own.
-uint ReserveGroups(FAddress List, uint Count) { return ReservePlaces(List, Count, 1u); }
+uvec2 ThreadOfBit(uint Bit, uint Width)
+{
+	uint Columns = (Width + THREAD_TILE - 1u) / THREAD_TILE, Tile = Bit / (THREAD_TILE * THREAD_TILE), Inside = Bit % (THREAD_TILE * THREAD_TILE);
+	return uvec2(Tile % Columns, Tile / Columns) * THREAD_TILE + uvec2(Inside % THREAD_TILE, Inside / THREAD_TILE);
+}
 
-// Number: of the launch's thread. OutThread: the one that it runs. Launches may be larger than their list.
+void MarkThread(FAddress List, uint Bit) { atomicOr(FThreadListRef(List).Words[Bit >> 5u], 1u << (Bit & 31u)); }
+
+// Number: of the launch's thread. OutThread: the one that it runs, or its number row by row. Launches may be larger than their list.
 bool FindThread(FAddress List, uint Number, out uint OutThread)
 {
 	OutThread = 0u;
-	if (Number >= FThreadListRef(List).Header.Launch[0]) { return false; }
-	OutThread = FThreadListRef(List).Threads[Number];
+	FThreadList Header = FThreadListRef(List).Header;
+	if (Number >= Header.Launch[0]) { return false; }
+	OutThread = FThreadListRef(List).Words[Header.BitWords + Number];
 	return true;
 }
 

@@ -7,7 +7,7 @@
 #include "../Library/Brdf.glsl"
 #include "../Library/GBuffer.glsl"
 #include "../Library/History.glsl"
-#include "../Rays/AppendThreads.glsl"
+#include "../Rays/MarkThreads.glsl"
 
 layout(local_size_x = RAY_QUEUE_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FReflectionChangedConstants Push; };
@@ -43,5 +43,5 @@ void main()
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Number = gl_GlobalInvocationID.y * (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) + gl_GlobalInvocationID.x, Thread;
 	bool bFurther = FindThread(Push.List, Number, Thread) && IsTracedFurther(View, ivec2(Thread % View.Width, Thread / View.Width));
-	AppendThread(Push.OutList, bFurther, Thread);
+	MarkThreads(Push.OutList, Number - gl_LocalInvocationIndex, bFurther);
 }

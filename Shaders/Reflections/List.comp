@@ -5,7 +5,7 @@
 #include "../Library/GBuffer.glsl"
 #include "../Library/RadianceCells.glsl"
 #include "../Library/UintTextures.glsl"
-#include "../Rays/AppendThreads.glsl"
+#include "../Rays/MarkThreads.glsl"
 #include "Fade.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
@@ -30,7 +30,7 @@ void main()
 	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
 	bool bInside = !IsOutsideView(View, uvec2(Pixel));
 	bool bTraced = bInside && IsTraced(View, Pixel);
-	AppendThread(Push.List, bTraced, uint(Pixel.y) * View.Width + uint(Pixel.x));
+	MarkThreads(Push.List, BitOfThread(gl_WorkGroupID.xy * TILE_SIZE, View.Width), bTraced);
 	if (!bInside) { return; }
 	if (Push.RadianceCells != FAddress(0) && all(equal(Pixel & 1, ivec2(0))))
 	{

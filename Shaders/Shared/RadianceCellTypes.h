@@ -129,6 +129,7 @@ struct FRadianceGrid
 	FAddress Votes;       // FRadianceVote[VoteCount]
 	FAddress UpdateVotes; // FRadianceVote[RADIANCE_CELL_MOST_UPDATES]: of updates, which count in the next frame
 	FAddress List;        // uint[2][RADIANCE_CELL_MOST_UPDATES]: slots to update, of even rounds and of odd ones
+	FAddress Marks;       // a bit for each slot, or entry of the list before, that a round lists
 	FAddress Results;     // FRadianceResult[RADIANCE_CELL_MOST_UPDATES]
 	FAddress Counters;    // FRadianceCellCounters
 	ivec3 Origin;         // of the scene, as FLightGrid::Origin
@@ -157,7 +158,7 @@ struct FRadianceGrid
 	float StillWindow;    // frames over which light is averaged that does not change
 	FAddress Scene;       // FSceneConstants
 };
-LANTERN_ASSERT_SIZE(FRadianceGrid, 192);
+LANTERN_ASSERT_SIZE(FRadianceGrid, 200);
 
 // Constants of the passes that keep the table.
 struct FRadianceCellConstants

@@ -49,24 +49,24 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
 	EXPECT_THAT(
 	    GetPasses(), ElementsAre("Skinning", "SceneUpdate", "EmissiveTriangles", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters",
-	                     "ShadowChoosers", "ShadowLights", "ShadowLightsChoose", "ShadowLightsShare", "ShadowDemand", "ShadowRays",
-	                     "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow", "SunShadowTemporal", "SunShadowFilter0",
+	                     "ShadowChoosers", "ShadowLights", "ShadowChoosersOrder", "ShadowLightsChoose", "ShadowLightsShare", "ShadowDemand",
+	                     "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow", "SunShadowTemporal", "SunShadowFilter0",
 	                     "SunShadowFilter1", "ShadowLightsShade", "ChangedLamps", "ChangedEmitters", "LocalDiffuseTemporal",
 	                     "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalSpecularTemporal", "LocalSpecularFilter0",
 	                     "LocalSpecularFilter1", "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0",
 	                     "AmbientOcclusionFilter1", "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
 	std::vector<std::string> Dispatched = GetDispatched();
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
-	EXPECT_THAT(
-	    Dispatched, ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Lights/EmissiveTriangles.comp",
-	                    "Lights/EmissivePowers.comp", "Tiles/Tiles.comp", "LocalLights/EmitterClusters.comp",
-	                    "LocalLights/Requests.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED LISTS_CHOOSERS",
-	                    "LocalLights/Choose.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED", "LocalLights/ShareRequests.comp",
-	                    AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "Tiles/MoreRays.comp",
-	                    AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "SunShadow/SunShadow.comp",
-	                    "LocalLights/Shade.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED", "LocalLights/ListEmitters.comp",
-	                    AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
-	                    "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS LOCAL_EMISSIVE", "ToneMap/ToneMap.comp"));
+	EXPECT_THAT(Dispatched,
+	    ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Lights/EmissiveTriangles.comp", "Lights/EmissivePowers.comp",
+	        "Tiles/Tiles.comp", "LocalLights/EmitterClusters.comp",
+	        "LocalLights/Requests.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED LISTS_CHOOSERS", "Rays/OrderThreads.comp",
+	        "LocalLights/Choose.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED", "LocalLights/ShareRequests.comp",
+	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "Tiles/MoreRays.comp",
+	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "SunShadow/SunShadow.comp",
+	        "LocalLights/Shade.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED", "LocalLights/ListEmitters.comp",
+	        AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
+	        "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS LOCAL_EMISSIVE", "ToneMap/ToneMap.comp"));
 	EXPECT_EQ(Count(ERTMockCall::DrawIndexed), 4u);
 	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 4u);
 	EXPECT_THAT(Mock().GetCreatedBuffers(), Contains("Lights"));

@@ -79,7 +79,7 @@ struct FPaths
 {
 	FGraphTexture Output;
 	FGraphTexture SecondOutput; ///< of the second lobe; invalid: there is none
-	FGraphBuffer Deferred;      ///< list of threads for the second launch; invalid: there is none
+	FThreadMarks Deferred;      ///< threads for the second launch; invalid: there is none
 	const FRadianceCells* RadianceCells = nullptr;
 	FPathGuide Guide;     ///< invalid: paths are not guided
 	FScreenProbes Probes; ///< invalid: paths start at pixels
@@ -123,7 +123,7 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	if (First.Has(GuidedPathsDefine)) { Paths.Guide = MakePathGuide(Context, Rate, uint64_t(Paths.Width) * Paths.Height); }
 	if (Second)
 	{
-		Paths.Deferred = AddThreadList(Context, uint64_t(Paths.Width) * Paths.Height, "DeferredPaths");
+		Paths.Deferred = AddThreadMarks(Context, Paths.Width, Paths.Height, "DeferredPaths");
 		Paths.Second = *Second;
 	}
 	return Paths;
@@ -168,8 +168,8 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 	if (Paths.Shared.IsValid()) { Builder.Write(Paths.Shared.Fresh, ERTAccess::StorageWrite); }
 	if (Paths.Shared.Reservoirs.IsValid()) { DeclarePathReservoirs(Builder, Paths.Shared.Reservoirs); }
 	if (!Paths.Deferred.IsValid()) { return; }
-	if (bDeferred) { LaunchFromThreadList(Builder, Paths.Deferred); }
-	else { AppendToThreadList(Builder, Paths.Deferred); }
+	if (bDeferred) { LaunchFromThreadList(Builder, Paths.Deferred.List); }
+	else { MarkThreads(Builder, Paths.Deferred.List); }
 }
 
 void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteForcePass& Settings, const FGBuffer& GBuffer,
@@ -194,7 +194,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.MaxBounces = (Paths.RadianceCells ? std::max(Bounces, BouncesWithoutCell) : Bounces) + 1;
 	C.RadianceCells = WriteRadianceGrid(Pass, Paths.RadianceCells);
 	C.MaxRoughness = Settings.MaxRoughness ? Settings.MaxRoughness->GetOnRenderThread() : 1.0f;
-	C.Deferred = GetAddress(Pass, Paths.Deferred);
+	C.Deferred = GetAddress(Pass, Paths.Deferred.List);
 	C.GuideTiles = GetGuideTiles(Pass, Paths.Guide);
 	C.PathRecords = GetAddress(Pass, Paths.Guide.Records);
 	C.ProbeGrid = WriteScreenProbeGrid(Pass, Paths.Probes);
@@ -203,7 +203,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.NearPixels = GetNearPixels(Frame);
 	C.ToonPixels = GetSampledIndex(Pass, Paths.Toon);
 	C.bHalf = Frame.bHalf ? 1u : 0u;
-	if (bDeferred) { return TraceThreadList(Pass, Frame, Paths.Second, Paths.Deferred, C, Paths.Width, Paths.Height); }
+	if (bDeferred) { return TraceThreadList(Pass, Frame, Paths.Second, Paths.Deferred.List, C, Paths.Width, Paths.Height); }
 	const uint32_t Resampling = Paths.Shared.Reservoirs.IsValid() ? GetMostReservoirRays() : 0;
 	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * (C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces) + Resampling));
 	TraceFirst(Pass, Frame, Paths, C);
@@ -227,6 +227,7 @@ void AddPathsPass(const FBruteForcePass& Settings, FFrameContext& Context, const
 /// Adds the second launch, and the passes that keep the cells which both look up.
 void AddDeferredPasses(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths)
 {
+	AddThreadOrder(Context, Paths.Deferred);
 	FBesideUpdates Beside;
 	Beside.Pass = std::string(GetSignalInfo(Settings.Signal).Pass) + "Deferred";
 	Beside.Declare = [&](FPassBuilder& Builder) { DeclarePaths(Builder, Settings, GBuffer, Paths, true); };
@@ -271,6 +272,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	{
 		AddRadianceCellDefines(Rays.Defines);
 		Rays.Defines.emplace_back(DefersPaths, "1");
+		Rays.Compute.push_back(MakeThreadOrderSource());
 		if (!bProbes) { AddAuditDefines(Rays.Defines); }
 		SetHitPrograms(EHitPrograms::Standard, Rays);
 	}
@@ -299,7 +301,7 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 		const FPassRays Deferred = MakeDeferredRays(Settings.Signal, Rays);
 		Second = RequireRayDispatch(
 		    Context, Deferred, Context.GetRayGen(EPassRayGen::DeferredPaths), MakeQuerySource(Context.Facts, Settings.Signal, Deferred));
-		if (!Second) { return {}; }
+		if (!RequireCompute(Context, MakeThreadOrderSource()) || !Second) { return {}; }
 	}
 	const EPixelRate Rate = FindRate(First->Defines);
 	const bool bFills = Rate != EPixelRate::Full && !First->Has(SharedPathsDefine);

@@ -100,7 +100,7 @@ struct FRequestsPass
 	bool bPreviousGuide = false;
 	FGraphTexture PreviousLights; ///< FQueuedRays::MaskLights, of the previous frame
 	uint32_t Tiles = 0;
-	FGraphBuffer Choosers; ///< FThreadList of tiles whose pixels choose in a pass of their own; invalid: they do so at once
+	FThreadMarks Choosers; ///< tiles whose pixels choose in a pass of their own; invalid: they do so at once
 	bool IsGuided() const { return Guide.IsValid(); }
 };
 
@@ -198,7 +198,7 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 		DeclareQueue(Builder, Inputs.Queue, Inputs.bFirst);
 		Builder.Write(Inputs.TileLights, ERTAccess::StorageWrite);
 		const bool bLists = Inputs.Choosers.IsValid();
-		if (bLists) { AppendToThreadList(Builder, Inputs.Choosers); }
+		if (bLists) { MarkThreads(Builder, Inputs.Choosers.List); }
 		else if (Inputs.Choices.IsValid()) { Builder.Write(Inputs.Choices, ERTAccess::StorageWrite); }
 		if (Inputs.bFirst) { Builder.Write(Inputs.Queue.Answers, ERTAccess::StorageWrite); }
 		if (Inputs.IsGuided()) { DeclareGuide(Builder, Inputs, !bLists); }
@@ -211,7 +211,7 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 			C.PreviousLights = GetSampledIndex(Pass, Inputs.PreviousLights);
 			SetSurfaces(Pass, Inputs, C);
 			if (Inputs.IsGuided()) { SetGuide(Pass, *Frame, Inputs, C); }
-			C.Choices = GetAddress(Pass, bLists ? Inputs.Choosers : Inputs.Choices);
+			C.Choices = GetAddress(Pass, bLists ? Inputs.Choosers.List : Inputs.Choices);
 			C.Lit = bLists ? 0 : GetAddress(Pass, Inputs.Lit);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
@@ -225,7 +225,7 @@ void AddChoosePass(FFrameContext& Context, IRTPipeline* Pipeline, const FRequest
 	Context.Graph.AddPass((Inputs.Queue.Name + "LightsChoose").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		DeclareSurfaces(Builder, Inputs);
 		DeclareQueue(Builder, Inputs.Queue, false);
-		LaunchFromThreadList(Builder, Inputs.Choosers);
+		LaunchFromThreadList(Builder, Inputs.Choosers.List);
 		Builder.Read(Inputs.TileLights, ERTAccess::StorageRead);
 		Builder.Write(Inputs.TileLights, ERTAccess::StorageWrite);
 		Builder.Read(Inputs.Guide, ERTAccess::StorageRead); // other tiles have theirs
@@ -238,8 +238,8 @@ void AddChoosePass(FFrameContext& Context, IRTPipeline* Pipeline, const FRequest
 			SetGuide(Pass, *Frame, Inputs, C);
 			C.Choices = GetAddress(Pass, Inputs.Choices);
 			C.Lit = GetAddress(Pass, Inputs.Lit);
-			C.Answers = GetAddress(Pass, Inputs.Choosers);
-			DispatchThreadList(Pass, Pipeline, Inputs.Choosers, C);
+			C.Answers = GetAddress(Pass, Inputs.Choosers.List);
+			DispatchThreadList(Pass, Pipeline, Inputs.Choosers.List, C);
 		};
 	});
 }
@@ -297,7 +297,11 @@ bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Li
 void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vector<FShaderSource>& Out)
 {
 	Out.push_back(MakeRequestsSource(Facts, Exact));
-	if (ListsChoosers(Facts, Exact)) { Out.push_back(MakeChooseSource(Facts, Exact)); }
+	if (ListsChoosers(Facts, Exact))
+	{
+		Out.push_back(MakeChooseSource(Facts, Exact));
+		Out.push_back(MakeThreadOrderSource());
+	}
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
 	ListEmitterShaders(Facts, Out);
 	if (HasRegions(Facts, Exact)) { Out.push_back(MakeLightRegionsSource(Facts)); }
@@ -313,8 +317,10 @@ bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 	const bool bSecond = !HasLocalRays(Context.Facts) || !WantsSecondRays() ||
 	                     RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Exact)));
 	const bool bListed = !HasRegions(Context.Facts, Exact) || RequireCompute(Context, MakeLightRegionsSource(Context.Facts));
-	const bool bChosen = !ListsChoosers(Context.Facts, Exact) || RequireCompute(Context, MakeChooseSource(Context.Facts, Exact));
-	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bChosen && bShared && bListed && bSecond &&
+	const bool bLists = ListsChoosers(Context.Facts, Exact);
+	const bool bChosen = !bLists || RequireCompute(Context, MakeChooseSource(Context.Facts, Exact));
+	const bool bOrdered = !bLists || RequireCompute(Context, MakeThreadOrderSource());
+	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bChosen && bOrdered && bShared && bListed && bSecond &&
 	       AreEmittersReady(Context);
 }
 
@@ -340,11 +346,16 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	Inputs.Emitters = AddEmitterClusters(Context, GBuffer);
 	if (Rays.bMany && ListsChoosers(Context.Facts, Rays.Exact))
 	{
-		Inputs.Choosers = AddThreadList(Context, Inputs.Tiles, (Inputs.Queue.Name + "Choosers").c_str());
+		Inputs.Choosers = AddThreadMarks(
+		    Context, DivideUp(Context.Width, TILE_SIZE), DivideUp(Context.Height, TILE_SIZE), Inputs.Queue.Name + "Choosers");
 	}
 	Inputs.Channels = RequirePixelChannels(Context, GBuffer);
 	AddRequestsPass(Context, RequireCompute(Context, MakeRequestsSource(Context.Facts, Rays.Exact)), Inputs);
-	if (Inputs.Choosers.IsValid()) { AddChoosePass(Context, RequireCompute(Context, MakeChooseSource(Context.Facts, Rays.Exact)), Inputs); }
+	if (Inputs.Choosers.IsValid())
+	{
+		AddThreadOrder(Context, Inputs.Choosers, {}, 1);
+		AddChoosePass(Context, RequireCompute(Context, MakeChooseSource(Context.Facts, Rays.Exact)), Inputs);
+	}
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }
 	InOut.Traced.TileLights = Inputs.TileLights;
 	InOut.Traced.Choices = Inputs.Choices;

@@ -14,6 +14,7 @@
 #include "Lights/LightCells.h"
 #include "RadianceCells/RadianceEvents.h"
 #include "ScreenProbes/ScreenProbes.h"
+#include "ThreadListTypes.h"
 #include "Tiles/MovedCasters.h"
 
 namespace Lantern
@@ -84,12 +85,14 @@ struct FRadianceWork
 	static constexpr uint64_t List = 0;
 	static constexpr uint64_t Results = List + 2 * uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(uint32_t);
 	static constexpr uint64_t Votes = Results + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(FRadianceResult);
-	static uint64_t GetSize(uint32_t VoteCount) { return Votes + uint64_t(VoteCount) * sizeof(FRadianceVote); }
+	static uint64_t GetMarks(uint32_t VoteCount) { return (Votes + uint64_t(VoteCount) * sizeof(FRadianceVote) + 15) / 16 * 16; }
+	static uint64_t GetSize(uint32_t VoteCount, uint32_t Slots) { return GetMarks(VoteCount) + CountMarked(Slots) / 8; }
+	static uint64_t CountMarked(uint32_t Slots) { return std::max(Slots, RADIANCE_CELL_MOST_UPDATES); }
 };
 
 FShaderSource MakeSource(const char* Name) { return MakeComputeSource(std::string("RadianceCells/") + Name + ".comp"); }
 
-constexpr const char* SourceNames[] = {"NewCells", "Votes", "Age", "Cut", "List", "ListAgain", "Commit"};
+constexpr const char* SourceNames[] = {"NewCells", "Votes", "Age", "Cut", "List", "ListAgain", "Order", "Commit"};
 
 bool AreReady(const FFrameContext& Context)
 {
@@ -200,7 +203,7 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 	// What the first frames know lacks further bounces, and must not be averaged for long.
 	Cells->Grid.Window = std::min(Cells->Grid.Window, std::max(float(Age) / AgesInWindow, float(FRadianceEvents::LeastWindow)));
 	SetPace(Cells->Grid, Events.bHurry, std::max(Context.View.DeltaSeconds, 1.0e-3f));
-	Cells->Work = Context.Graph.CreateBuffer({FRadianceWork::GetSize(Cells->Grid.VoteCount)}, "RadianceCellWork");
+	Cells->Work = Context.Graph.CreateBuffer({FRadianceWork::GetSize(Cells->Grid.VoteCount, Cells->Slots)}, "RadianceCellWork");
 	if (History.bFresh)
 	{
 		Context.Graph.AddPass("RadianceCellsClear", [&](FPassBuilder& Builder) -> FPassExecute {
@@ -350,6 +353,7 @@ FAddress WriteRadianceGrid(FPassContext& Pass, const FRadianceCells* Cells)
 	Grid.List = Work + FRadianceWork::List;
 	Grid.Results = Work + FRadianceWork::Results;
 	Grid.Votes = Work + FRadianceWork::Votes;
+	Grid.Marks = Work + FRadianceWork::GetMarks(Grid.VoteCount);
 	std::memcpy(Cells->GridData.Data, &Grid, sizeof(Grid));
 	return Cells->GridData.Address;
 }
@@ -366,11 +370,13 @@ bool AddRadianceCellPasses(FFrameContext& Context, const FGBuffer& GBuffer, ERay
 	AddComputePass(Context, Cells, "Age", Cells->Slots);
 	AddComputePass(Context, Cells, "Cut", 1);
 	AddComputePass(Context, Cells, "List", Cells->Slots);
+	AddComputePass(Context, Cells, "Order", DivideUp(Cells->Slots, THREAD_ORDER_BITS));
 	AddUpdatePass(Context, GBuffer, Cells, *Dispatch, Beside);
 	AddComputePass(Context, Cells, "Commit", RADIANCE_CELL_MOST_UPDATES);
 	for (uint32_t Round = 1; Round < Cells->Grid.Rounds; ++Round)
 	{
 		AddComputePass(Context, Cells, "ListAgain", RADIANCE_CELL_MOST_UPDATES, Round);
+		AddComputePass(Context, Cells, "Order", RADIANCE_CELL_MOST_UPDATES / THREAD_ORDER_BITS, Round);
 		AddUpdatePass(Context, GBuffer, Cells, *Dispatch, {}, Round);
 		AddComputePass(Context, Cells, "Commit", RADIANCE_CELL_MOST_UPDATES, Round);
 	}

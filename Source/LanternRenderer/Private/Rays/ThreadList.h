@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "RayPath.h"
 #include "RayQueueTypes.h"
@@ -10,11 +11,27 @@
 namespace Lantern
 {
 
-/// Adds a pass of Name that makes an empty list. Most: threads that it has room for, 1 or more.
-FGraphBuffer AddThreadList(FFrameContext& Context, uint64_t Most, const char* Name);
+/// A list, and the size of the launch whose threads passes mark for it.
+struct FThreadMarks
+{
+	FGraphBuffer List;
+	std::string Name;
+	uint32_t Width = 0, Height = 0; ///< 1 or more, if there is a list
+	bool IsValid() const { return List.IsValid(); }
+};
 
-/// Declares that a pass adds to a list.
-inline void AppendToThreadList(FPassBuilder& Builder, FGraphBuffer List)
+/// The shader of AddThreadOrder. Passes with a list ask for it before they add one.
+FShaderSource MakeThreadOrderSource();
+
+/// Adds a pass of Name that makes a list without marks.
+FThreadMarks AddThreadMarks(FFrameContext& Context, uint32_t Width, uint32_t Height, std::string Name);
+
+/// Adds the pass that lists what has been marked. From: bits stand for its entries; invalid: for threads. GroupSize: entries that a work group
+/// of the later launch takes.
+void AddThreadOrder(FFrameContext& Context, const FThreadMarks& Marks, FGraphBuffer From = {}, uint32_t GroupSize = RAY_QUEUE_GROUP_SIZE);
+
+/// Declares that a pass marks threads.
+inline void MarkThreads(FPassBuilder& Builder, FGraphBuffer List)
 {
 	Builder.Read(List, ERTAccess::StorageRead);
 	Builder.Write(List, ERTAccess::StorageWrite);

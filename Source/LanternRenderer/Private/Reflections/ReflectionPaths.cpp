@@ -74,8 +74,8 @@ struct FPaths
 	uint32_t FirstVoter = 0;
 	FGraphTexture Radiance;      ///< over the directional albedo of lobes, and of what mirrors show
 	FGraphTexture Mirrored;      ///< albedo and emission of what mirrors show
-	FGraphBuffer Threads;        ///< list of pixels, row by row
-	FGraphBuffer ChangedThreads; ///< list of those that are traced further; invalid: none are
+	FThreadMarks Threads;        ///< pixels that are traced
+	FThreadMarks ChangedThreads; ///< those that are traced further; invalid: none are
 	FGraphBuffer Hits;           ///< FReflectionHit
 	FSurfaceTextures Shown;      ///< what reflections show; Current is invalid: nobody asks
 	FGraphTexture LastAnchors;   ///< of the frame before; invalid: there are none
@@ -131,7 +131,7 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("ReflectionsList", [&](FPassBuilder& Builder) -> FPassExecute {
 		DeclarePixels(Builder, GBuffer);
-		AppendToThreadList(Builder, Paths.Threads);
+		MarkThreads(Builder, Paths.Threads.List);
 		ReadRadianceCells(Builder, Paths.Cells);
 		for (const FGraphTexture Texture :
 		    {Paths.Radiance, Paths.Mirrored, Paths.Shown.Current, Paths.Shown.Anchors, Paths.Reach, Paths.Picture})
@@ -151,7 +151,7 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 			C.Picture = GetStorageIndex(Pass, Paths.Picture);
 			C.Reach = GetStorageIndex(Pass, Paths.Reach);
 			C.Fade = GetFade(MaxRoughness);
-			C.List = GetAddress(Pass, Paths.Threads);
+			C.List = GetAddress(Pass, Paths.Threads.List);
 			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
 			C.FirstVoter = Paths.FirstVoter;
 			Dispatch2D(Pass, Paths.List, C, Frame->Width, Frame->Height, TILE_SIZE);
@@ -163,7 +163,7 @@ void AddListPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& 
 void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths, bool bFurther)
 {
 	const FFrameContext* const Frame = &Context;
-	const FGraphBuffer Threads = bFurther ? Paths.ChangedThreads : Paths.Threads;
+	const FGraphBuffer Threads = (bFurther ? Paths.ChangedThreads : Paths.Threads).List;
 	const FLightCellsOfFrame& LightCells = RequireLightCells(Context, GBuffer);
 	const uint32_t Bounces = Paths.Cells ? std::max(Paths.Settings.Bounces, BouncesWithoutCell) : Paths.Settings.Bounces;
 	Context.Graph.AddPass(bFurther ? "ReflectionsFurther" : "Reflections", [&](FPassBuilder& Builder) -> FPassExecute {
@@ -173,7 +173,7 @@ void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths&
 		ReadLightCells(Builder, LightCells, true);
 		if (bFurther)
 		{
-			Builder.Read(Paths.Threads, ERTAccess::ShaderRead);
+			Builder.Read(Paths.Threads.List, ERTAccess::ShaderRead);
 			Builder.Read(Paths.Radiance, ERTAccess::StorageRead);
 		}
 		Builder.Write(Paths.Radiance, ERTAccess::StorageWrite);
@@ -199,7 +199,7 @@ void AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPaths&
 			C.LitRoughness = CVarLitRoughness.GetOnRenderThread();
 			C.EmissionRoughness = FullRoughness;
 			C.List = GetAddress(Pass, Threads);
-			C.FirstList = GetAddress(Pass, Paths.Threads);
+			C.FirstList = GetAddress(Pass, Paths.Threads.List);
 			C.Hits = bFurther ? 0 : GetAddress(Pass, Paths.Hits);
 			C.RadianceCells = WriteRadianceGrid(Pass, Paths.Cells);
 			C.FirstVoter = Paths.FirstVoter;
@@ -216,7 +216,7 @@ void AddSurfacePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("ReflectionsSurface", [&](FPassBuilder& Builder) -> FPassExecute {
 		DeclarePixels(Builder, GBuffer);
-		LaunchFromThreadList(Builder, Paths.Threads);
+		LaunchFromThreadList(Builder, Paths.Threads.List);
 		Builder.Read(Paths.Hits, ERTAccess::ShaderRead);
 		for (const FGraphTexture Texture : {GBuffer.Motion, Paths.Shown.Previous, Paths.LastAnchors})
 		{
@@ -235,13 +235,13 @@ void AddSurfacePass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 			C.bNamesObjects = GBuffer.bNamesObjects ? 1 : 0;
 			C.PreviousSurface = GetSampledIndex(Pass, Paths.Shown.Previous);
 			C.PreviousAnchors = GetSampledIndex(Pass, Paths.LastAnchors);
-			C.List = GetAddress(Pass, Paths.Threads);
+			C.List = GetAddress(Pass, Paths.Threads.List);
 			C.Hits = GetAddress(Pass, Paths.Hits);
 			C.OutSurface = GetStorageIndex(Pass, Paths.Shown.Current);
 			C.OutAnchors = GetStorageIndex(Pass, Paths.Shown.Anchors);
 			C.Picture = GetStorageIndex(Pass, Paths.Picture);
 			C.OutReach = GetStorageIndex(Pass, Paths.Reach);
-			DispatchThreadList(Pass, Paths.Surface, Paths.Threads, C);
+			DispatchThreadList(Pass, Paths.Surface, Paths.Threads.List, C);
 		};
 	});
 }
@@ -252,8 +252,8 @@ void AddChangedPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("ReflectionsChanged", [&](FPassBuilder& Builder) -> FPassExecute {
 		DeclarePixels(Builder, GBuffer);
-		LaunchFromThreadList(Builder, Paths.Threads);
-		AppendToThreadList(Builder, Paths.ChangedThreads);
+		LaunchFromThreadList(Builder, Paths.Threads.List);
+		MarkThreads(Builder, Paths.ChangedThreads.List);
 		for (const FGraphTexture Texture : {Paths.Radiance, Paths.Shown.Anchors, History, Changed})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
@@ -267,10 +267,10 @@ void AddChangedPass(FFrameContext& Context, const FGBuffer& GBuffer, const FPath
 			C.Anchors = GetSampledIndex(Pass, Paths.Shown.Anchors);
 			C.History = GetSampledIndex(Pass, History);
 			C.ChangedShare = GetSampledIndex(Pass, Changed);
-			C.List = GetAddress(Pass, Paths.Threads);
-			C.OutList = GetAddress(Pass, Paths.ChangedThreads);
+			C.List = GetAddress(Pass, Paths.Threads.List);
+			C.OutList = GetAddress(Pass, Paths.ChangedThreads.List);
 			C.LeastFrames = CVarChangedFrames.GetOnRenderThread();
-			DispatchThreadList(Pass, Paths.Changed, Paths.Threads, C);
+			DispatchThreadList(Pass, Paths.Changed, Paths.Threads.List, C);
 		};
 	});
 }
@@ -313,8 +313,9 @@ FGraphTexture AddFilter(FFrameContext& Context, const FGBuffer& GBuffer, FPaths&
 	if (Inputs.ChangedShare.IsValid() && Paths.Changed)
 	{
 		if (!RequireDenoiseHistory(Context, Inputs.Name, Inputs.History)) { return Paths.Radiance; }
-		Paths.ChangedThreads = AddThreadList(Context, uint64_t(Context.Width) * Context.Height, "ReflectionsChangedThreads");
+		Paths.ChangedThreads = AddThreadMarks(Context, Context.Width, Context.Height, "ReflectionsChangedThreads");
 		AddChangedPass(Context, GBuffer, Paths, Inputs.History.Previous, Inputs.ChangedShare);
+		AddThreadOrder(Context, Paths.ChangedThreads, Paths.Threads.List);
 		AddTracePass(Context, GBuffer, Paths, true);
 	}
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
@@ -346,6 +347,7 @@ FPassRays ChooseReflectionPaths(const FReflectionPathSettings& Settings, const F
 	Rays.Shaders = "Reflections/Paths";
 	ListLightCellShaders(Query.Facts, Rays.Compute);
 	Rays.Compute.push_back(MakeSource("List"));
+	Rays.Compute.push_back(MakeThreadOrderSource());
 	Rays.Compute.push_back(MakeCombineSource(Query.Facts));
 	return Rays;
 }
@@ -370,11 +372,15 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 	FPaths Paths{Settings};
 	Paths.List = RequireCompute(Context, MakeSource("List")); // all are asked for at once
 	Paths.Combine = RequireCompute(Context, MakeCombineSource(Context.Facts));
+	const bool bOrders = RequireCompute(Context, MakeThreadOrderSource()) != nullptr;
 	Paths.Surface = bFiltered ? RequireCompute(Context, MakeSurfaceSource()) : nullptr;
 	const bool bFurther = bFiltered && GetFurtherSamples(Settings.Samples) > 0;
 	Paths.Changed = bFurther ? RequireCompute(Context, MakeSource("Changed")) : nullptr;
 	if (bFiltered && !AreDenoiseShadersReady(Context, FilterForm, Denoise.Get())) { return {}; }
-	if (!Dispatch || !Paths.List || !Paths.Combine || (bFiltered && !Paths.Surface) || (bFurther && !Paths.Changed)) { return {}; }
+	if (!Dispatch || !Paths.List || !bOrders || !Paths.Combine || (bFiltered && !Paths.Surface) || (bFurther && !Paths.Changed))
+	{
+		return {};
+	}
 	Paths.Dispatch = *Dispatch;
 	if (bFiltered && !RequireShown(Context, Paths)) { return {}; }
 	const ERayPath Cached = ChooseRadianceCellPath(Query);
@@ -386,7 +392,7 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
 	Paths.Radiance = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, "ReflectedRadiance");
 	Paths.Mirrored = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG32_UINT}, "ReflectedSurfaces");
-	Paths.Threads = AddThreadList(Context, Pixels, "ReflectionsThreads");
+	Paths.Threads = AddThreadMarks(Context, Context.Width, Context.Height, "ReflectionsThreads");
 	Paths.Hits = Context.Graph.CreateBuffer({Pixels * sizeof(FReflectionHit)}, "ReflectionHits");
 	if (bFiltered) { Paths.Reach = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "ReflectionReach"); }
 	if (bFiltered && IsDebugPicture(ReflectionPictures[0]) && !Context.DebugPicture.IsValid())
@@ -395,6 +401,7 @@ FGraphTexture AddReflectionPaths(const FReflectionPathSettings& Settings, FFrame
 		Context.DebugPicture = Paths.Picture;
 	}
 	AddListPass(Context, GBuffer, Paths);
+	AddThreadOrder(Context, Paths.Threads);
 	AddTracePass(Context, GBuffer, Paths, false);
 	return AddCombinePass(Context, GBuffer, Paths, bFiltered ? AddFilter(Context, GBuffer, Paths) : Paths.Radiance);
 }

@@ -1,0 +1,25 @@
+// Lists the slots that a round updates: those that List.comp or ListAgain.comp has marked, in the order of the table.
+#version 460
+#define GROUP_SIZE THREAD_ORDER_GROUP_SIZE
+#include "../Library/OrderBits.glsl"
+#include "RadianceCellSlots.glsl"
+
+// Of the first round, bits stand for slots. Those of further ones stand for entries of the list before.
+void ListBit(uint Place, uint Bit)
+{
+	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
+	if (Place >= Grid.Room) { return; }
+	FRadianceWordRef List = FRadianceWordRef(Grid.List);
+	List.Data[PlaceInList(Push.Round, Place)] = Push.Round == 0u ? Bit : List.Data[PlaceInList(Push.Round - 1u, Bit)] & ~LivelySlot;
+}
+
+void main()
+{
+	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
+	uint Bits = Push.Round == 0u ? GetSlotCount(Grid) : RADIANCE_CELL_MOST_UPDATES;
+	uint Group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+	uint Count = (Bits + THREAD_ORDER_BITS - 1u) / THREAD_ORDER_BITS;
+	uint Sum = OrderBits(Grid.Marks, Count, Group);
+	bool bLast = (Group + 1u) * THREAD_ORDER_GROUP_SIZE >= Count && Group * THREAD_ORDER_GROUP_SIZE < Count;
+	if (bLast && gl_LocalInvocationIndex == 0u) { FRadianceCountersRef(Grid.Counters).Data.Listed[Push.Round] = Sum; }
+}
