@@ -11,7 +11,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FB
 shared uint BitCounts[THREAD_ORDER_GROUP_SIZE];
 shared uint BitsBefore;
 
-void ListBit(uint Place, uint Bit); // of the includer: writes an entry
+// Of the includer: THREAD_ORDER_BITS of the mask; writes an entry.
+uvec4 LoadBits(uint Index);
+void ListBit(uint Place, uint Bit);
 
 uint CountBits(uvec4 Bits)
 {
@@ -19,17 +21,29 @@ uint CountBits(uvec4 Bits)
 	return uint(Counts.x + Counts.y + Counts.z + Counts.w);
 }
 
-// Called by all threads of the work group, once. Bits: THREAD_ORDER_BITS in each of Count entries. Returns how many are set in this group's
-// entries and in all before.
-uint OrderBits(FAddress Bits, uint Count, uint Group)
+// Returns a thread's part of the bits in entries below End. Loads wait for each other where they are in a loop of their own.
+uint CountBitsBelow(uint End, uint Lane)
+{
+	const uint AtOnce = 8u;
+	uint Sum = 0u;
+	for (uint First = Lane; First < End; First += AtOnce * THREAD_ORDER_GROUP_SIZE)
+	{
+		uvec4 Bits[AtOnce];
+		[[unroll]] for (uint I = 0u; I < AtOnce; ++I) { Bits[I] = LoadBits(min(First + I * THREAD_ORDER_GROUP_SIZE, End - 1u)); }
+		[[unroll]] for (uint I = 0u; I < AtOnce; ++I) { Sum += First + I * THREAD_ORDER_GROUP_SIZE < End ? CountBits(Bits[I]) : 0u; }
+	}
+	return Sum;
+}
+
+// Called by all threads of the work group, once. Count: of LoadBits. Returns how many bits are set in this group's and in all before.
+uint OrderBits(uint Count, uint Group)
 {
 	uint Lane = gl_LocalInvocationIndex, First = Group * THREAD_ORDER_GROUP_SIZE;
 	if (Lane == 0u) { BitsBefore = 0u; }
 	barrier();
-	uint Before = 0u;
-	for (uint I = Lane; I < min(First, Count); I += THREAD_ORDER_GROUP_SIZE) { Before += CountBits(FBitsRef(Bits).Data[I]); }
+	uint Before = CountBitsBelow(min(First, Count), Lane);
 	if (Before > 0u) { atomicAdd(BitsBefore, Before); }
-	uvec4 Mine = First + Lane < Count ? FBitsRef(Bits).Data[First + Lane] : uvec4(0u);
+	uvec4 Mine = First + Lane < Count ? LoadBits(First + Lane) : uvec4(0u);
 	BitCounts[Lane] = CountBits(Mine);
 	barrier();
 	for (uint Step = 1u; Step < THREAD_ORDER_GROUP_SIZE; Step <<= 1u)
@@ -48,6 +62,13 @@ uint OrderBits(FAddress Bits, uint Count, uint Group)
 		}
 	}
 	return BitsBefore + BitCounts[THREAD_ORDER_GROUP_SIZE - 1u];
+}
+
+// Whether the thread alone has what OrderBits returned of all bits.
+bool HasWholeCount(uint Count, uint Group)
+{
+	uint Last = (max(Count, 1u) - 1u) / THREAD_ORDER_GROUP_SIZE;
+	return Group == Last && gl_LocalInvocationIndex == 0u;
 }
 
 #endif

@@ -4,6 +4,8 @@
 #include "../Library/OrderBits.glsl"
 #include "RadianceCellSlots.glsl"
 
+uvec4 LoadBits(uint Index) { return FBitsRef(FRadianceGridRef(Push.Grid).Data.Marks).Data[Index]; }
+
 // Of the first round, bits stand for slots. Those of further ones stand for entries of the list before.
 void ListBit(uint Place, uint Bit)
 {
@@ -19,7 +21,6 @@ void main()
 	uint Bits = Push.Round == 0u ? GetSlotCount(Grid) : RADIANCE_CELL_MOST_UPDATES;
 	uint Group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 	uint Count = (Bits + THREAD_ORDER_BITS - 1u) / THREAD_ORDER_BITS;
-	uint Sum = OrderBits(Grid.Marks, Count, Group);
-	bool bLast = (Group + 1u) * THREAD_ORDER_GROUP_SIZE >= Count && Group * THREAD_ORDER_GROUP_SIZE < Count;
-	if (bLast && gl_LocalInvocationIndex == 0u) { FRadianceCountersRef(Grid.Counters).Data.Listed[Push.Round] = Sum; }
+	uint Sum = OrderBits(Count, Group);
+	if (HasWholeCount(Count, Group)) { FRadianceCountersRef(Grid.Counters).Data.Listed[Push.Round] = Sum; }
 }

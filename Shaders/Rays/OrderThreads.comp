@@ -14,13 +14,15 @@ uint EntryOf(uint Bit)
 	return Place.y * Push.Width + Place.x;
 }
 
+const FAddress HeaderBytes = FAddress(32);
+
+uvec4 LoadBits(uint Index) { return FBitsRef(Push.List + HeaderBytes).Data[Index]; }
 void ListBit(uint Place, uint Bit) { FThreadListRef(Push.List).Words[FThreadListRef(Push.List).Header.BitWords + Place] = EntryOf(Bit); }
 
 void main()
 {
-	const FAddress HeaderBytes = FAddress(32);
-	uint Sum = OrderBits(Push.List + HeaderBytes, FThreadListRef(Push.List).Header.BitWords / 4u, gl_WorkGroupID.x);
-	if (gl_WorkGroupID.x != gl_NumWorkGroups.x - 1u || gl_LocalInvocationIndex != 0u) { return; }
+	uint Count = FThreadListRef(Push.List).Header.BitWords / 4u, Sum = OrderBits(Count, gl_WorkGroupID.x);
+	if (!HasWholeCount(Count, gl_WorkGroupID.x)) { return; }
 	uint Row = Push.GroupSize * uint(RAY_QUEUE_ROW_GROUPS);
 	FThreadListRef(Push.List).Header.Groups[1] = (Sum + Row - 1u) / Row;
 	FThreadListRef(Push.List).Header.Launch[0] = Sum;

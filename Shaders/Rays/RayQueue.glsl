@@ -42,16 +42,6 @@ void GrowLaunch(FAddress Address, uint End)
 	atomicMax(Counters.Data.Launch[0], End);
 }
 
-// Reserves room for Count requests of the first segment, of Samples threads each, and returns the first one's place. What lies beyond
-// Capacity has no room.
-uint ReserveMoreRequests(FAddress Address, uint Capacity, uint Count, uint Samples)
-{
-	uint First = atomicAdd(FRayQueueCountersRef(Address).Data.Segments[RAY_SEGMENT_SUN].Wanted, Count);
-	GrowLaunch(Address, min(First + Count, Capacity) * Samples);
-	return First;
-}
-uint ReserveSunRequests(FAddress Address, uint Capacity, uint Count) { return ReserveMoreRequests(Address, Capacity, Count, 1u); }
-
 uint PackSunAnswer(uint Seen, uint Unseen) { return (Seen << ANSWER_SUN_SEEN) | (Unseen << ANSWER_SUN_UNSEEN); }
 uint SunSeen(uint Answer) { return (Answer >> ANSWER_SUN_SEEN) & ANSWER_SUN_MASK; }
 uint SunUnseen(uint Answer) { return (Answer >> ANSWER_SUN_UNSEEN) & ANSWER_SUN_MASK; }

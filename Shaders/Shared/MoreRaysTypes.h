@@ -10,19 +10,16 @@ struct FMoreRaysConstants
 {
 	FPassConstants Pass;
 	FAddress Tiles;    // FTile[]
-	FAddress Requests; // FRayRequest[Capacity]
-	FAddress Counters; // FRayQueueCounters of this queue
+	FAddress Marks;    // FSunQueueConstants::Marks
 	FAddress Answers;  // uint[pixels], of the queues before
 	FAddress Widths;   // FShadowQueueConstants::SunWidths
-	uint Capacity;
-	uint Samples; // of each request
 	uint Surface, Reprojection, Motion; // sampled indices; NO_TEXTURE, the last two: no pixel has a history
 	uint History; // sampled index, of the shadows that were filtered before (FTemporalConstants); NO_TEXTURE: there is none
 	FAddress Casters;   // FMovedCaster[CasterCount]: those that moved in the last frames
 	uint CasterCount;
 	float CasterSpread; // as in FTemporalConstants
 };
-LANTERN_ASSERT_SIZE(FMoreRaysConstants, 96);
+LANTERN_ASSERT_SIZE(FMoreRaysConstants, 80);
 
 LANTERN_SHARED_END
 

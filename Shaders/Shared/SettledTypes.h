@@ -47,13 +47,12 @@ struct FCheckSettledConstants
 {
 	FPassConstants Pass;
 	FAddress Tiles;    // FTile[]
-	FAddress Requests; // FRayRequest[Capacity]
-	FAddress Counters; // FRayQueueCounters of the second queue
 	FAddress Answers;  // uint[pixels]
-	uint Capacity;
+	FAddress Marks; // FSunQueueConstants::Marks, of SunRest
 	uint Settled; // storage index: see FSettledConstants::Current
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FCheckSettledConstants, 56);
+LANTERN_ASSERT_SIZE(FCheckSettledConstants, 48);
 
 // Constants of Tiles/TileView.comp.
 struct FTileViewConstants

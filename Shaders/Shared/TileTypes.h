@@ -24,14 +24,30 @@ struct FTile
 	uint Classes;    // TILE_…
 	uint SunRays[2]; // a bit for each pixel that asks for a sun ray, in Z order
 	uint SunRest[2]; // pixels that ask for one only if those of SunRays say something new
+	uint SunLit[2];  // of SunRays: the pixel is lit by the host's shadow map (RAY_SLOT_SUN_LIT)
 };
-LANTERN_ASSERT_SIZE(FTile, 20);
+LANTERN_ASSERT_SIZE(FTile, 28);
+
+// Constants of QueueSun.comp.
+struct FSunQueueConstants
+{
+	FPassConstants Pass;
+	FAddress Marks;    // uvec2[TileCount]: a bit for each pixel that asks for a ray, in Z order
+	FAddress Tiles;    // FTile[TileCount], of which SunLit holds; 0: no pixel is lit by the host's shadow map
+	FAddress Requests; // FRayRequest[Capacity]
+	FAddress Counters; // FRayQueueCounters
+	uint Capacity;
+	uint TileCount;
+	uint Samples; // threads of each request
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FSunQueueConstants, 64);
 
 struct FTilesConstants
 {
 	FPassConstants Pass;
 	FAddress Tiles;     // FTile[], row by row
-	FAddress Requests;  // FRayRequest[Capacity]
+	FAddress Requests;  // FRayRequest[Capacity], of ShareQueue.comp, as the next and Capacity
 	FAddress Counters;  // FRayQueueCounters
 	FAddress Answers;   // uint[pixels]
 	uint Capacity;
@@ -45,8 +61,9 @@ struct FTilesConstants
 	FAddress Settled; // ADAPTIVE only: FSettledConstants
 	FAddress HostShadow; // FHostShadowData, or what the host's shader reads; 0: no map in this frame
 	FAddress SunWidths;  // as in FShadowQueueConstants; 0: nobody asks
+	FAddress Marks;      // FSunQueueConstants::Marks, of SunRays
 };
-LANTERN_ASSERT_SIZE(FTilesConstants, 104);
+LANTERN_ASSERT_SIZE(FTilesConstants, 112);
 
 LANTERN_SHARED_END
 

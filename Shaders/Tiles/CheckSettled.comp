@@ -1,4 +1,4 @@
-// Asks for the rest of a tile's rays, in this very frame, if a settled pixel that was traced has another answer than was known.
+// Asks for the rest of a tile's rays, in this very frame (QueueSun.comp), if a settled pixel that was traced has another answer than was known.
 #version 460
 #include "../Shared/SettledTypes.h"
 #include "../Rays/RayQueue.glsl"
@@ -8,7 +8,7 @@
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FCheckSettledConstants Push; };
 
-shared uint bDisagrees, FirstRequest;
+shared uint bDisagrees;
 
 void main()
 {
@@ -29,16 +29,13 @@ void main()
 		if ((Known & (SETTLED_LIT - 1u)) >= SETTLED_FRAMES && Other > 0u) { bDisagrees = 1u; }
 	}
 	barrier();
+	if (Place == 0u) { FTileMarksRef(Push.Marks).Data[TileAt] = bDisagrees != 0u ? uvec2(Tile.SunRest[0], Tile.SunRest[1]) : uvec2(0u); }
 	if (bDisagrees == 0u) { return; }
 	if (Place == 0u)
 	{
-		FirstRequest = ReserveSunRequests(Push.Counters, Push.Capacity, Count);
 		Tiles.Data[TileAt].Classes = Tile.Classes | TILE_SUN_DISAGREES;
 		for (uint I = 0u; I < 2u; ++I) { Tiles.Data[TileAt].SunRays[I] = Tile.SunRays[I] | Tile.SunRest[I]; }
 	}
-	barrier();
 	if ((Tile.SunRest[Word] & Bit) == 0u) { return; }
 	FAnswerRef(Push.Answers).Data[Index] &= (1u << ANSWER_SUN_SEEN) - 1u; // what was known is void; answers are combined by or
-	uint Number = FirstRequest + bitCount(Tile.SunRest[Word] & (Bit - 1u)) + (Word > 0u ? bitCount(Tile.SunRest[0]) : 0u);
-	if (Number < Push.Capacity) { FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(RAY_KIND_SUN, 0u, Index); }
 }

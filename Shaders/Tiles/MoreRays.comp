@@ -16,7 +16,7 @@ const float WideEnough = 12.0;             // pixels: a penumbra that histories 
 const float LeastCoverage = 0.5;          // of a history
 const float LeastShare = 0.03;            // of the sun, that a history has seen, or not seen, in a penumbra
 
-shared uint States[RingSize * RingSize], Wanted[2], FirstRequest, bTouched;
+shared uint States[RingSize * RingSize], Wanted[2], bTouched;
 
 // The answers of a pixel that faces the sun.
 uint LoadState(FViewConstants View, ivec2 Pixel)
@@ -112,8 +112,13 @@ void main()
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Place = gl_LocalInvocationIndex, Word = Place >> 5u, Bit = 1u << (Place & 31u);
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place), At = TilePixel(uvec2(0u), Place);
-	FTile Tile = FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)];
-	if ((Tile.SunRays[0] | Tile.SunRays[1]) == 0u) { return; }
+	uint TileAt = TileIndex(View, gl_WorkGroupID.xy);
+	FTile Tile = FTileRef(Push.Tiles).Data[TileAt];
+	if ((Tile.SunRays[0] | Tile.SunRays[1]) == 0u)
+	{
+		if (Place == 0u) { FTileMarksRef(Push.Marks).Data[TileAt] = uvec2(0u); }
+		return;
+	}
 	if (Place == 0u)
 	{
 		Wanted[0] = Wanted[1] = 0u;
@@ -127,14 +132,5 @@ void main()
 	bool bWanted = bAsked && NeedsMore(View, ivec2(Pixel), JoinStates(At) == (SeesSun | SeesNone));
 	if (bWanted) { atomicOr(Wanted[Word], Bit); }
 	barrier();
-	uint Count = bitCount(Wanted[0]) + bitCount(Wanted[1]);
-	if (Count == 0u) { return; }
-	if (Place == 0u) { FirstRequest = ReserveMoreRequests(Push.Counters, Push.Capacity, Count, Push.Samples); }
-	barrier();
-	if (!bWanted) { return; }
-	uint Number = FirstRequest + bitCount(Wanted[Word] & (Bit - 1u)) + (Word > 0u ? bitCount(Wanted[0]) : 0u);
-	if (Number < Push.Capacity)
-	{
-		FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(RAY_KIND_SUN, 0u, Pixel.y * View.Width + Pixel.x);
-	}
+	if (Place == 0u) { FTileMarksRef(Push.Marks).Data[TileAt] = uvec2(Wanted[0], Wanted[1]); }
 }

@@ -6,6 +6,7 @@
 #include "../Library/Bindings.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileRef { FTile Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FTileMarksRef { uvec2 Data[]; };
 
 // The tile of a work group.
 #ifndef GROUP_TILE

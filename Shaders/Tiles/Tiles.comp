@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform FPush { FTilesConstants Push; };
 #include "Settled.glsl"
 #endif
 
-shared uint Classes, SunRays[2], SunRest[2], FirstRequest;
+shared uint Classes, SunRays[2], SunRest[2], SunLit[2];
 
 #ifdef HAS_HOST_SHADOW
 // Class: without the map.
@@ -66,15 +66,15 @@ void main()
 	uint Place = gl_LocalInvocationIndex, Word = Place >> 5u, Bit = 1u << (Place & 31u);
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
 	uint Index = Pixel.y * View.Width + Pixel.x;
-	if (Place == 0u) { Classes = SunRays[0] = SunRays[1] = SunRest[0] = SunRest[1] = 0u; }
+	if (Place < 2u) { SunRays[Place] = SunRest[Place] = SunLit[Place] = 0u; }
+	if (Place == 0u) { Classes = 0u; }
 	barrier();
-	bool bTraced = false;
-	uint Slot = 0u;
+	bool bTraced = false, bLit = false;
 	if (!IsOutsideView(View, Pixel))
 	{
 		uint Class = ClassifySun(View, Pixel);
 		bTraced = (Class & TILE_SUN_TRACED) != 0u;
-		Slot = (Class & TILE_SUN_LIT) != 0u ? RAY_SLOT_SUN_LIT : 0u;
+		bLit = (Class & TILE_SUN_LIT) != 0u;
 		StartAnswer(Index, Class);
 		atomicOr(Classes, Class);
 	}
@@ -93,17 +93,12 @@ void main()
 	else if (bTraced && Push.Settled != 0ul) { bTraced = IsTracedFarAway(View, Place, Pixel); }
 #endif
 	if (bTraced) { atomicOr(SunRays[Word], Bit); }
+	if (bTraced && bLit) { atomicOr(SunLit[Word], Bit); }
 	barrier();
 	if (Place == 0u)
 	{
-		uint Count = bitCount(SunRays[0]) + bitCount(SunRays[1]);
-		FirstRequest = Count > 0u ? ReserveSunRequests(Push.Counters, Push.Capacity, Count) : 0u;
-		FTile Tile = FTile(Classes, uint[2](SunRays[0], SunRays[1]), uint[2](SunRest[0], SunRest[1]));
-		FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)] = Tile;
+		uint TileAt = TileIndex(View, gl_WorkGroupID.xy);
+		FTileRef(Push.Tiles).Data[TileAt] = FTile(Classes, SunRays, SunRest, SunLit);
+		FTileMarksRef(Push.Marks).Data[TileAt] = uvec2(SunRays[0], SunRays[1]);
 	}
-	barrier();
-	if (!bTraced) { return; }
-	uint Before = bitCount(SunRays[Word] & (Bit - 1u)) + (Word > 0u ? bitCount(SunRays[0]) : 0u);
-	uint Number = FirstRequest + Before;
-	if (Number < Push.Capacity) { FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(RAY_KIND_SUN, Slot, Index); }
 }

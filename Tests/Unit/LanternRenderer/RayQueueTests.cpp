@@ -59,8 +59,8 @@ TEST_F(FRayQueueTest, RoomForAllCostsNothingMore)
 {
 	Set("r.RT.Shadow.Denoise", "0");
 	LoadAndRender({});
-	EXPECT_THAT(GetPasses(),
-	    ElementsAre("SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowRays", "SunShadow", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPasses(), ElementsAre("SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowQueue", "ShadowRays", "SunShadow",
+	                             "DirectLighting", "ToneMap"));
 	EXPECT_EQ(GetBytes("RayRequests"), Pixels * sizeof(FRayRequest)) << "the sun asks for one ray per pixel at most";
 	EXPECT_EQ(GetBytes("RayQueueCounters"), sizeof(FRayQueueCounters));
 	EXPECT_EQ(GetBytes("RayAnswers"), Pixels * 4u);
@@ -82,11 +82,11 @@ TEST_F(FRayQueueTest, QueueThatMayLackRoom)
 		Set("r.RT.Shadow.Path", Path);
 		LoadAndRender({});
 		const std::vector<std::string> Passes = GetPasses();
-		for (const char* const Name : {"ShadowTiles", "ShadowShare", "ShadowDemand", "ShadowRays", "SunShadow"})
+		for (const char* const Name : {"ShadowTiles", "ShadowQueue", "ShadowShare", "ShadowDemand", "ShadowRays", "SunShadow"})
 		{
 			EXPECT_THAT(Passes, Contains(Name)) << Path;
 		}
-		const auto Sort = GetConstants<FTilesConstants>(ERTMockCall::Dispatch, "Tiles/Tiles.comp");
+		const auto Sort = GetConstants<FSunQueueConstants>(ERTMockCall::Dispatch, "Tiles/QueueSun.comp");
 		const auto Share = GetConstants<FTilesConstants>(ERTMockCall::Dispatch, "Tiles/ShareQueue.comp");
 		const ERTMockCall Trace = Path[0] == '1' ? ERTMockCall::TraceRaysIndirect : ERTMockCall::DispatchIndirect;
 		const auto Rays = GetConstants<FShadowQueueConstants>(Trace, "");

@@ -47,22 +47,22 @@ protected:
 TEST_F(FRendererContentTest, EverythingAtOnce)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
-	EXPECT_THAT(
-	    GetPasses(), ElementsAre("Skinning", "SceneUpdate", "EmissiveTriangles", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters",
-	                     "ShadowChoosers", "ShadowLights", "ShadowChoosersOrder", "ShadowLightsChoose", "ShadowLightsShare", "ShadowDemand",
-	                     "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow", "SunShadowTemporal", "SunShadowFilter0",
-	                     "SunShadowFilter1", "ShadowLightsShade", "ChangedLamps", "ChangedEmitters", "LocalDiffuseTemporal",
-	                     "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalSpecularTemporal", "LocalSpecularFilter0",
-	                     "LocalSpecularFilter1", "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0",
-	                     "AmbientOcclusionFilter1", "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPasses(),
+	    ElementsAre("Skinning", "SceneUpdate", "EmissiveTriangles", "GBuffer", "Structures", "ShadowTiles", "ShadowQueue", "ShadowEmitters",
+	        "ShadowChoosers", "ShadowLights", "ShadowChoosersOrder", "ShadowLightsChoose", "ShadowLightsShare", "ShadowDemand",
+	        "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreQueue", "ShadowMoreRays", "SunShadow", "SunShadowTemporal",
+	        "SunShadowFilter0", "SunShadowFilter1", "ShadowLightsShade", "ChangedLamps", "ChangedEmitters", "LocalDiffuseTemporal",
+	        "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1",
+	        "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1", "AmbientOcclusionFilter2",
+	        "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
 	std::vector<std::string> Dispatched = GetDispatched();
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
 	EXPECT_THAT(Dispatched,
 	    ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Lights/EmissiveTriangles.comp", "Lights/EmissivePowers.comp",
-	        "Tiles/Tiles.comp", "LocalLights/EmitterClusters.comp",
+	        "Tiles/Tiles.comp", "Tiles/QueueSun.comp", "LocalLights/EmitterClusters.comp",
 	        "LocalLights/Requests.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED LISTS_CHOOSERS", "Rays/OrderThreads.comp",
 	        "LocalLights/Choose.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED", "LocalLights/ShareRequests.comp",
-	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "Tiles/MoreRays.comp",
+	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "Tiles/MoreRays.comp", "Tiles/QueueSun.comp",
 	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "SunShadow/SunShadow.comp",
 	        "LocalLights/Shade.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED", "LocalLights/ListEmitters.comp",
 	        AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
@@ -76,7 +76,7 @@ TEST_F(FRendererContentTest, SecondFrameOfAStaticSceneCopiesAndBuildsNothing)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bSky = true});
 	for (int Frame = 0; Frame < 8; ++Frame) { Render(); } // what was built is compacted
-	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "ShadowTiles", "ShadowLights", "ShadowRays", "SunShadow",
+	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "ShadowTiles", "ShadowQueue", "ShadowLights", "ShadowRays", "SunShadow",
 	                                           "ShadowLightsShade", "AmbientOcclusion", "DirectLighting", "ToneMap"));
 	for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene, ERTMockCall::CreateTexture,
 	         ERTMockCall::CreateComputePipeline})
@@ -202,8 +202,8 @@ TEST_F(FRendererContentTest, WithoutASunNoRayIsTraced)
 	EXPECT_THAT(Mock().GetCreatedTextures(), Not(Contains("SunShadowVisibility")));
 	ApplySky({.bSun = true, .bSky = true});
 	Render();
-	EXPECT_THAT(GetPassesWithoutFilters(),
-	    ElementsAre("GBuffer", "Structures", "ShaderTable", "ShadowTiles", "ShadowRays", "SunShadow", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "Structures", "ShaderTable", "ShadowTiles", "ShadowQueue", "ShadowRays",
+	                                           "SunShadow", "DirectLighting", "ToneMap"));
 	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 2u);
 	EXPECT_EQ(Count(ERTMockCall::TraceRaysIndirect), 1u);
 }
@@ -253,8 +253,9 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 	Capture.Signals.Add(ESignal::SunShadow);
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
-	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "ShadowTiles", "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow",
-	                             "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1"))
+	EXPECT_THAT(
+	    GetPasses(), ElementsAre("GBuffer", "ShadowTiles", "ShadowQueue", "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreQueue",
+	                     "ShadowMoreRays", "SunShadow", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1"))
 	    << "a host that lights by itself";
 }
 

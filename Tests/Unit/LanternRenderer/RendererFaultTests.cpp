@@ -295,8 +295,8 @@ TEST_F(FRendererFaultTest, FeatureWhosePipelineFailsCanBeSwitchedOff)
 
 TEST_F(FRendererFaultTest, MissingShaderFileIsNamed)
 {
-	for (const char* Missing : {"Lighting/DirectLighting.comp", "Tiles/Tiles.comp", "SunShadow/SunShadow.comp", "Rays/ShadowQueue.rgen",
-	         "Rays/Shadow.rmiss", "GBuffer/GBuffer.frag", "Library/Brdf.glsl"})
+	for (const char* Missing : {"Lighting/DirectLighting.comp", "Tiles/Tiles.comp", "Tiles/QueueSun.comp", "Rays/OrderThreads.comp",
+	         "SunShadow/SunShadow.comp", "Rays/ShadowQueue.rgen", "Rays/Shadow.rmiss", "GBuffer/GBuffer.frag", "Library/Brdf.glsl"})
 	{
 		const FTemporaryFolder Folder;
 		std::filesystem::copy(GetShaderFolder(), Folder.GetPath(), std::filesystem::copy_options::recursive);

@@ -177,7 +177,7 @@ TEST_F(FRendererLackTest, NoSun)
 	Stage.Content.bSun = false;
 	ExpectAbsent("no sun", Stage,
 	    {"pass SunShadow", "texture SunShadow", "SunShadowTemporal", "SunShadowFilter", "SunShadowHistory", "SunShadow/SunShadow",
-	        "HAS_SUN", "pass ShadowTiles", "Tiles/Tiles.comp", "buffer Tiles", "buffer SunWidths"});
+	        "HAS_SUN", "pass ShadowTiles", "Tiles/Tiles.comp", "Tiles/QueueSun.comp", "buffer Tiles", "buffer SunWidths"});
 	EXPECT_TRUE(HasPart(Make({}, {{"r.RT.Shadow.Path", "2"}}), "SUN_RAYS"));
 	EXPECT_FALSE(HasPart(Make(Stage, {{"r.RT.Shadow.Path", "2"}}), "SUN_RAYS"));
 }

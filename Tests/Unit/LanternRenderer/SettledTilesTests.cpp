@@ -17,7 +17,7 @@ using ::testing::Not;
 class FSettledTilesTest : public FRendererTest
 {
 protected:
-	static constexpr const char* RestPasses[] = {"ShadowRestCheck", "ShadowRestRays"};
+	static constexpr const char* RestPasses[] = {"ShadowRestCheck", "ShadowRestQueue", "ShadowRestRays"};
 
 	bool HasRestPasses()
 	{

@@ -181,7 +181,8 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	Rays.bBlockers = MeasuresPenumbra();
 	Rays.Shaders = ShadowQueueShaders;
 	const FSunRates Rates = GetSunRates(Query.Facts, MeasuresPenumbra());
-	Rays.Compute = {MakeTilesSource(Query.Facts, Rates), MakeResolveSource(Query.Facts, Rates)};
+	Rays.Compute = {MakeResolveSource(Query.Facts, Rates)};
+	ListTilesShaders(Query.Facts, Rates, Rays.Compute);
 	if (Rates.bAdaptive) { ListSettledShaders(Rays.Compute); }
 	if (MeasuresPenumbra() && GetMoreRays() > 0) { ListMoreRaysShaders(Rays.Compute); }
 	ListTileViewShaders(Rays.Compute);

@@ -5,6 +5,7 @@
 #include "Denoise/SurfaceHistory.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "MoreRaysTypes.h"
+#include "Tiles/Tiles.h"
 
 namespace Lantern
 {
@@ -26,33 +27,29 @@ bool IsSameView(const FView& A, const FView& B)
 	       A.Near == B.Near && WindowA == WindowB;
 }
 
-void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& More, FGraphBuffer Tiles, const FShadowChanges& Changes,
-    FGraphTexture History, uint32_t Samples)
+void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& More, FGraphBuffer Tiles, FGraphBuffer Marks,
+    const FShadowChanges& Changes, FGraphTexture History)
 {
 	const FFrameContext* const Frame = &Context;
 	const FSurfaceTextures Surface = Context.Surface;
 	const bool bPrevious = Surface.Previous.IsValid();
 	Context.Graph.AddPass((More.Name + "Ask").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphBuffer Buffer : {Tiles, More.Answers, More.SunWidths}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
+		Builder.Write(Marks, ERTAccess::StorageWrite);
 		Builder.Read(Surface.Current, ERTAccess::ShaderRead);
 		for (const FGraphTexture Texture : {Surface.Reprojection, Surface.Motion})
 		{
 			if (bPrevious) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
 		if (History.IsValid()) { Builder.Read(History, ERTAccess::ShaderRead); }
-		for (const FGraphBuffer Buffer : {More.Requests, More.Counters}) { Builder.Write(Buffer, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			StartQueue(Pass, More);
 			FMoreRaysConstants C{};
 			C.Pass = Frame->Pass;
 			C.Tiles = GetAddress(Pass, Tiles);
-			C.Requests = GetAddress(Pass, More.Requests);
-			C.Counters = GetAddress(Pass, More.Counters);
+			C.Marks = GetAddress(Pass, Marks);
 			C.Answers = GetAddress(Pass, More.Answers);
 			C.Widths = GetAddress(Pass, More.SunWidths);
-			C.Capacity = More.Capacity;
-			C.Samples = Samples;
 			C.Casters = Changes.Casters;
 			C.CasterCount = Changes.CasterCount;
 			C.CasterSpread = Changes.Spread;
@@ -85,7 +82,9 @@ void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDisp
 	const FRayQueue More = CreateFurtherQueue(Context, Queue, "More");
 	FQueuedRays Traced = Rays;
 	Traced.MoreSamples = GetMoreRays();
-	AddAskPass(Context, Pipeline, More, Tiles, Changes, OutHistory.Previous, Traced.MoreSamples);
+	const FGraphBuffer Marks = CreateSunMarks(Context, More);
+	AddAskPass(Context, Pipeline, More, Tiles, Marks, Changes, OutHistory.Previous);
+	AddSunQueuePass(Context, More, Marks, Traced.MoreSamples);
 	AddShadowRaysPass(Context, GBuffer, Dispatch, More, Traced);
 }
 

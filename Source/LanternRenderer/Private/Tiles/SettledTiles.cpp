@@ -40,7 +40,8 @@ bool RequireKnown(FFrameContext& Context, const FGBuffer& GBuffer, const FMovedC
 	return true;
 }
 
-void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& Second, FGraphBuffer Tiles, FGraphTexture Known)
+void AddCheckPass(
+    FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& Second, FGraphBuffer Tiles, FGraphBuffer Marks, FGraphTexture Known)
 {
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass((Second.Name + "Check").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
@@ -50,17 +51,14 @@ void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue
 			Builder.Write(Buffer, ERTAccess::StorageWrite);
 		}
 		Builder.Read(Known, ERTAccess::StorageRead);
-		for (const FGraphBuffer Buffer : {Second.Requests, Second.Counters}) { Builder.Write(Buffer, ERTAccess::StorageWrite); }
+		Builder.Write(Marks, ERTAccess::StorageWrite);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			StartQueue(Pass, Second);
 			FCheckSettledConstants C{};
 			C.Pass = Frame->Pass;
 			C.Tiles = GetAddress(Pass, Tiles);
-			C.Requests = GetAddress(Pass, Second.Requests);
-			C.Counters = GetAddress(Pass, Second.Counters);
+			C.Marks = GetAddress(Pass, Marks);
 			C.Answers = GetAddress(Pass, Second.Answers);
-			C.Capacity = Second.Capacity;
 			C.Settled = GetStorageIndex(Pass, Known);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
@@ -134,7 +132,9 @@ void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayD
 	if (!Check) { return; } // FindSettledTiles had it
 	FRayQueue Second = CreateFurtherQueue(Context, Queue, "Rest");
 	Second.bRest = true;
-	AddCheckPass(Context, Check, Second, Tiles, Settled.Known.Current);
+	const FGraphBuffer Marks = CreateSunMarks(Context, Second);
+	AddCheckPass(Context, Check, Second, Tiles, Marks, Settled.Known.Current);
+	AddSunQueuePass(Context, Second, Marks, 1);
 	// What has no room makes its tile unsettled: the next frame asks the first queue, which then grows.
 	if (MayLackSunRays(Context, Queue)) { AddShareQueuePass(Context, Second, Tiles, true); }
 	AddShadowRaysPass(Context, GBuffer, Dispatch, Second, Rays);
