@@ -1,4 +1,4 @@
-// Pixels of listed tiles choose lights, and queue their rays. Requests.comp has listed the tiles, and says what is defined. Apart from it,
+// Pixels of listed tiles choose lights, and queue their rays. Requests.comp has marked the tiles, and says what is defined. Apart from it,
 // because few tiles need it, and it takes many registers.
 #version 460
 uvec2 ListedTile;

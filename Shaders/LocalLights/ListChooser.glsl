@@ -1,4 +1,4 @@
-// Lists a tile whose pixels choose, and keeps the memory of those that do not. For Requests.comp.
+// Marks a tile whose pixels choose, and keeps the memory of those that do not. For Requests.comp.
 #ifndef LANTERN_LIST_CHOOSER_GLSL
 #define LANTERN_LIST_CHOOSER_GLSL
 

@@ -5,7 +5,7 @@
 // LIGHT_MASK: a tile of many lights has rays to TILE_LIGHTS of them all the same, and pixels choose of the rest (MaskSlots.glsl).
 // MASK_ALONE: nobody reads what pixels would choose.
 // GUIDED: pixels choose from a table of their tile's lights (TileTable.glsl). Not defined: from all, which takes long.
-// LISTS_CHOOSERS: tiles whose pixels choose are listed, for Choose.comp.
+// LISTS_CHOOSERS: tiles whose pixels choose are marked, for Choose.comp.
 #version 460
 #include "../Tiles/Tile.glsl"
 #include "TileRequests.glsl"

@@ -1,4 +1,4 @@
-// Lists the cells that this frame updates. Where the budget ends, chance decides and never the place in the table.
+// Marks the cells that this frame updates, and Order.comp lists them. Where the budget ends, chance decides and never the place in the table.
 #version 460
 #include "RadianceCellSlots.glsl"
 #include "ListSlots.glsl"

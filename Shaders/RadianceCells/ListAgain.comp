@@ -1,4 +1,4 @@
-// Lists the cells for another round of this frame: those whose light changes, as long as the frame's budget lasts. Light then goes several
+// Marks the cells for another round of this frame: those whose light changes, as long as the frame's budget lasts. Light then goes several
 // surfaces further in a frame, and not one.
 #version 460
 #include "RadianceCellSlots.glsl"

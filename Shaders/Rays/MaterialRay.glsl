@@ -5,6 +5,7 @@
 #define LANTERN_MATERIAL_RAY_GLSL
 
 #include "../Library/EmissionShare.glsl"
+#include "PathRayCount.glsl"
 #ifdef RAY_QUERY
 #include "QueryHit.glsl"
 #else
@@ -36,6 +37,7 @@ const float Infinity = 1.0e30;
 // Shows: what of emission is asked for; SHOWS_NOTHING: what lights.
 FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance, uint Shows)
 {
+	CountPathRay(Scene, PATH_RAY_SURFACE);
 #ifdef RAY_QUERY
 	return QueryMaterialHit(Scene, Mask, Origin, Direction, MaxDistance, Shows == SHOWS_NOTHING);
 #else

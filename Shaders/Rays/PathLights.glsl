@@ -89,6 +89,7 @@ vec3 LightThrough(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Directi
 	}
 	return vec3(0.0);
 #else
+	CountPathRay(Scene, PATH_RAY_LIGHT);
 	return vec3(Transmittance(Scene, Casters, Origin, Direction, Distance));
 #endif
 }

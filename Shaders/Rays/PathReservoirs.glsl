@@ -64,6 +64,7 @@ float GetReservoirJacobian(vec3 From, vec3 To, FPathReservoir R)
 bool SeesHit(FSceneConstants Scene, FViewConstants View, vec3 Place, FPathReservoir R)
 {
 	vec3 Origin = View.CameraPosition + Place;
+	CountPathRay(Scene, PATH_RAY_CHECK);
 	if (IsSkyPath(R)) { return Transmittance(Scene, GatherMask, Origin, R.Hit, 1.0e30) >= 1.0; }
 	vec3 Hit = View.CameraPosition + R.Hit;
 	vec3 To = OffsetRayOrigin(Hit, UnpackOct24(R.HitNormal), Scene.ObjectReach, distance(Hit, Origin)) - Origin;

@@ -24,6 +24,7 @@ bool IsHidden(FRadianceGrid Grid, FRadianceQuery Query, FRadianceCell Cell, floa
 	float Length = length(Way);
 	if (Length < Lift) { return false; }
 	FSceneConstants Scene = FSceneRef(Grid.Scene).Data;
+	CountPathRay(Scene, PATH_RAY_CHECK);
 	return Transmittance(Scene, MASK_LOCAL_CASTERS, From, Way / Length, Length) <= 0.0;
 }
 #endif

@@ -1,4 +1,4 @@
-// Lists the mirrors' pixels that further paths are traced for: what they show is new, or its light has changed. The filter could only spread
+// Marks the mirrors' pixels that further paths are traced for: what they show is new, or its light has changed. The filter could only spread
 // what few paths have found, over the edges of shadows as well. Rougher surfaces hide these edges.
 #version 460
 #include "../Shared/DenoiseTypes.h"

@@ -1,4 +1,4 @@
-// Lists the pixels whose reflections are traced.
+// Marks the pixels whose reflections are traced. OrderThreads.comp lists them.
 #version 460
 #include "../Shared/ReflectionTypes.h"
 #include "../Shared/TileTypes.h"

@@ -46,7 +46,7 @@ struct FRayQueueCounters
 LANTERN_ASSERT_SIZE(FRayQueueCounters, 40);
 
 // A pixel's answers. Each kind has bits of its own, which start as 0. Those of the sun are counts and add up; others are combined by or.
-// The order of rays never shows.
+// The order of rays never shows in them.
 #define ANSWER_LOCAL_SEEN 0u // lowest of 8 bits, one for each slot: its light is seen
 #define ANSWER_LOCAL_TRACED 8u // lowest of 8 bits: its ray was traced
 #define ANSWER_CHOSEN_SEEN 16u // bit: the chosen light is seen; of further choices, ANSWER_LOCAL_SEEN and so on

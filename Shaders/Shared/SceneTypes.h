@@ -277,6 +277,17 @@ LANTERN_ASSERT_SIZE(FToonData, 48);
 #define SKY_MAP_OCTAHEDRAL 1u
 #define SKY_MAP_ROOTS 2u // octahedral, of square roots of nits: half floats then hold moonless nights and blinding suns
 
+// Rays that paths trace in a frame (r.RT.Rays.CountPaths), by kind.
+#define PATH_RAY_SURFACE 0u // looks for a surface; of the reference, also for what tints a light
+#define PATH_RAY_LIGHT 1u   // from a surface to a light
+#define PATH_RAY_CHECK 2u   // whether a surface sees the place of a radiance cell, or what a kept path has met
+#define PATH_RAY_KINDS 3u
+struct FPathRayStatistics
+{
+	uint Rays[PATH_RAY_KINDS];
+};
+LANTERN_ASSERT_SIZE(FPathRayStatistics, 12);
+
 // Constants of the scene, one block a frame.
 struct FSceneConstants
 {
@@ -318,8 +329,9 @@ struct FSceneConstants
 	FAddress SkyData;         // FSkyData (SkyTypes.h); 0: the sky has no program
 	uint SunChannels;         // 8 bits, as those of FLightData
 	uint Pad;
+	FAddress PathRayStatistics; // FPathRayStatistics, for shaders with COUNTS_PATH_RAYS
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 304);
+LANTERN_ASSERT_SIZE(FSceneConstants, 312);
 
 // A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
 // Positions are relative to the scene's origin.

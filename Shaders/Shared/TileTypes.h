@@ -28,7 +28,12 @@ struct FTile
 };
 LANTERN_ASSERT_SIZE(FTile, 28);
 
-// Constants of QueueSun.comp.
+// Which rays QueueSun.comp queues, and what counts as wanted.
+#define SUN_QUEUE_ROOM 0u // those that have room
+#define SUN_QUEUE_ALL 1u  // all: ShareQueue.comp follows, which unmarks what has no room
+#define SUN_QUEUE_KEPT 2u // what that has left, if the queue had overflowed
+
+// Constants of QueueSun.comp and ShareQueue.comp.
 struct FSunQueueConstants
 {
 	FPassConstants Pass;
@@ -39,7 +44,7 @@ struct FSunQueueConstants
 	uint Capacity;
 	uint TileCount;
 	uint Samples; // threads of each request
-	uint Pad;
+	uint Rays;    // SUN_QUEUE_…
 };
 LANTERN_ASSERT_SIZE(FSunQueueConstants, 64);
 
@@ -47,15 +52,11 @@ struct FTilesConstants
 {
 	FPassConstants Pass;
 	FAddress Tiles;     // FTile[], row by row
-	FAddress Requests;  // FRayRequest[Capacity], of ShareQueue.comp, as the next and Capacity
-	FAddress Counters;  // FRayQueueCounters
 	FAddress Answers;   // uint[pixels]
-	uint Capacity;
 	uint Depth;      // sampled index
 	uint Normals;    // sampled index: shading and geometric normal, both octahedral
 	uint SunSamples; // for each pixel, 1 to 64
 	float SunOneMinusCos; // of the disk that sun rays go to; 0: they go to its centre
-	uint bSunRest;   // ShareQueue.comp: 1: the queue holds the rays of FTile::SunRest
 	uint SunMask;    // casters that rays look for: in general
 	uint LitMask;    // and where the host's shadow map says that a pixel is lit
 	FAddress Settled; // ADAPTIVE only: FSettledConstants
@@ -63,7 +64,7 @@ struct FTilesConstants
 	FAddress SunWidths;  // as in FShadowQueueConstants; 0: nobody asks
 	FAddress Marks;      // FSunQueueConstants::Marks, of SunRays
 };
-LANTERN_ASSERT_SIZE(FTilesConstants, 112);
+LANTERN_ASSERT_SIZE(FTilesConstants, 88);
 
 LANTERN_SHARED_END
 

@@ -1,4 +1,4 @@
-// Queues rays that tiles ask for, in the order of tiles. In another order, a driver may meet another of several blockers first, and the filter
+// Queues rays that are marked, in the order of tiles. In another order, a driver may meet another of several blockers first, and the filter
 // hears how far away it is.
 #version 460
 #include "../Shared/TileTypes.h"
@@ -28,8 +28,15 @@ void ListBit(uint Place, uint Bit)
 
 void main()
 {
+	FRayQueueCountersRef Counters = FRayQueueCountersRef(Push.Counters);
+	if (Push.Rays == SUN_QUEUE_KEPT && Counters.Data.Segments[RAY_SEGMENT_SUN].Wanted <= Push.Capacity) { return; }
 	uint Count = (Push.TileCount + 1u) / 2u, Sum = OrderBits(Count, gl_WorkGroupID.x);
 	if (!HasWholeCount(Count, gl_WorkGroupID.x)) { return; }
-	FRayQueueCountersRef(Push.Counters).Data.Segments[RAY_SEGMENT_SUN].Wanted = Sum;
+	if (Push.Rays == SUN_QUEUE_KEPT)
+	{
+		Counters.Data.Segments[RAY_SEGMENT_SUN].Kept = Sum;
+		return;
+	}
+	Counters.Data.Segments[RAY_SEGMENT_SUN].Wanted = Push.Rays == SUN_QUEUE_ALL ? Sum : min(Sum, Push.Capacity);
 	GrowLaunch(Push.Counters, min(Sum, Push.Capacity) * Push.Samples);
 }

@@ -1,4 +1,4 @@
-// Sorts the screen into tiles, answers what needs no ray, and queues the rays of the rest.
+// Sorts the screen into tiles, answers what needs no ray, and marks the pixels of the rest, for QueueSun.comp.
 #version 460
 #include "../Shared/TileTypes.h"
 #include "../Library/GBuffer.glsl"

@@ -65,6 +65,25 @@ TEST_F(FDiffuseGISlowTest, CourtyardAsTheReference)
 	ExpectUnbiased("courtyard GI", ESignal::DiffuseGI, MakeView(64, 36), 1, 16, 3, 0.01);
 }
 
+// In a closed room each path has a ray to each surface, and from each that reflects one to the lamp.
+TEST_F(FDiffuseGITest, RaysOfPathsAreCounted)
+{
+	ASSERT_TRUE(Load("sphere:0.5"));
+	SetVariable("r.RT.Reflections", "0");
+	SetVariable("r.RT.Rays.CountPaths", "1");
+	constexpr uint32_t Pixels = 32 * 24;
+	for (const uint32_t Bounces : {1u, 2u})
+	{
+		SetIndirect(2, int32_t(Bounces));
+		RenderSignal(ESignal::DiffuseGI, MakeView(32, 24), 1);
+		EXPECT_OK(GetEngine().GetRenderer().WaitForAll());
+		const FPathRayCounts Counts = GetEngine().GetRenderer().GetPathRayCounts();
+		EXPECT_EQ(Counts.Surfaces, 2 * Pixels * (Bounces + 1)) << Bounces;
+		EXPECT_EQ(Counts.Lights, 2 * Pixels * Bounces) << Bounces;
+	}
+	SetVariable("r.RT.Rays.CountPaths", "0");
+}
+
 // Frames go on where the last one ended, and draw the same again for the same index and seed.
 TEST_F(FDiffuseGITest, SamplesFollowFrameAndSeed)
 {

@@ -85,7 +85,7 @@ protected:
 
 TEST_F(FThreadListTest, MarkedThreadsAreListedTileByTile)
 {
-	for (const glm::uvec2 Size : {glm::uvec2(1, 1), glm::uvec2(131, 73), glm::uvec2(1000, 701)}) // the last one has six work groups
+	for (const glm::uvec2 Size : {glm::uvec2(1, 1), glm::uvec2(131, 73), glm::uvec2(1000, 701)}) // the last one has 22 work groups
 	{
 		for (const double Chance : {0.0, 0.3, 1.0})
 		{

@@ -115,8 +115,10 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 	Json["worst_frame_gpu_ms"] = WorstGpu;
 	Json["worst_frame_cpu_ms"] = WorstCpu;
 	Json["rays"] = Rays;
+	nlohmann::json KeptParts = nlohmann::json::object();
+	for (const auto& [Name, Bytes] : Renderer.GetHistoryParts()) { KeptParts[Name] = Bytes; }
 	Json["memory"] = {{"blas", Memory.Geometry}, {"tlas", Memory.Scene}, {"sbt", Memory.ShaderTable}, {"textures", Memory.Texture},
-	    {"peak", Memory.Peak}};
+	    {"peak", Memory.Peak}, {"kept", Renderer.GetHistoryBytes()}, {"kept_parts", KeptParts}};
 	const FRTPSO* Pipeline = Renderer.GetRayPipeline();
 	const uint32_t Groups = Pipeline ? Pipeline->GetHitGroupCount() : 0;
 	const uint32_t Missing = Pipeline ? Pipeline->GetMissingCount() : 0;
@@ -133,6 +135,10 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 		Json["path_ends"] = {{"mirrors", Counts.Mirrors}, {"sharp", Counts.Sharp}, {"wide", Counts.Wide}, {"further", Counts.Further},
 		    {"hit_lit", Counts.Lit}, {"sky", Counts.Sky}, {"cache", Counts.Cells}, {"stand_in", Counts.StandIns}, {"dark", Counts.Dark},
 		    {"none", Counts.None}};
+	}
+	if (const FPathRayCounts& Counts = Renderer.GetPathRayCounts(); Counts.Frames > 0)
+	{
+		Json["path_rays"] = {{"surfaces", Counts.Surfaces}, {"lights", Counts.Lights}, {"checks", Counts.Checks}};
 	}
 	Json["load_seconds"] = Session.GetLoadSeconds();
 	return Json;

@@ -1,6 +1,7 @@
 // What passes share.
 #include "PassTools.h"
 
+#include "Feedback/PathRayCounter.h"
 #include "LanternCore/Text/Log.h"
 
 namespace Lantern
@@ -154,6 +155,7 @@ FShaderDefines MakePathDefines(const FSceneFacts& Facts)
 	if (Facts.bScattering && !CVarScatteredDepth.GetOnRenderThread()) { Defines.emplace_back("NO_SCATTERED_DEPTH", "1"); }
 	if (Facts.bEmissive) { Defines.emplace_back("HAS_EMISSIVE", "1"); }
 	if (Facts.bCharacters) { Defines.emplace_back("HAS_CHARACTERS", "1"); }
+	if (ArePathRaysCounted()) { Defines.emplace_back("COUNTS_PATH_RAYS", "1"); }
 	return Defines;
 }
 

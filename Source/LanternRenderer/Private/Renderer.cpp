@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "Feedback/AnyHitCounter.h"
+#include "Feedback/PathRayCounter.h"
 #include "Feedback/PixelExplainer.h"
 #include "Feedback/RadianceAuditor.h"
 #include "Feedback/RadianceCellCounter.h"
@@ -63,6 +64,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       CellCounter(std::make_unique<FRadianceCellCounter>(InDevice)),
       CellAuditor(std::make_unique<FRadianceAuditor>(InDevice)),
       ReflectionCounter(std::make_unique<FReflectionCounter>(InDevice)),
+      PathRayCounter(std::make_unique<FPathRayCounter>(InDevice)),
       Explainer(std::make_unique<FPixelExplainer>(InDevice)),
       Sky(std::make_unique<FSkyBake>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
@@ -93,6 +95,7 @@ FRTStatus FRenderer::WaitForAll()
 	CellCounter->TakeAll();
 	CellAuditor->TakeAll();
 	ReflectionCounter->TakeAll();
+	PathRayCounter->TakeAll();
 	Explainer->TakeAll();
 	RayCounter->TakeAll();
 	return FRTStatus::Success();
@@ -102,6 +105,7 @@ const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
 const FRadianceCellCounts& FRenderer::GetRadianceCells() const { return CellCounter->Get(); }
 const FRadianceAudit& FRenderer::GetRadianceAudit() const { return CellAuditor->Get(); }
 const FReflectionCounts& FRenderer::GetReflectionCounts() const { return ReflectionCounter->Get(); }
+const FPathRayCounts& FRenderer::GetPathRayCounts() const { return PathRayCounter->Get(); }
 const FPixelExplanation& FRenderer::GetPixelExplanation() const { return Explainer->Get(); }
 const FRayCounts& FRenderer::GetRayCounts() const { return RayCounter->Get(); }
 
@@ -304,6 +308,7 @@ void FRenderer::WriteConstants()
 {
 	FSceneConstants OfScene = Context->Scene.GetConstants();
 	OfScene.AnyHitCounter = AnyHits->GetCounters().GetAddress();
+	OfScene.PathRayStatistics = PathRayCounter->GetCounters().GetAddress();
 	OfScene.LightCells = Context->World->LightCells.Address;
 	Sky->FillConstants(OfScene);
 	OfScene.StandInHits = StandIns->GetCounters().GetAddress();
@@ -351,6 +356,13 @@ void FRenderer::ClearHistories(uint32_t ViewIndex)
 	GetView(ViewIndex).HalfHistory->Clear();
 }
 
+std::vector<std::pair<std::string, uint64_t>> FRenderer::GetHistoryParts(uint32_t ViewIndex)
+{
+	std::vector<std::pair<std::string, uint64_t>> Parts = GetView(ViewIndex).History->GetParts();
+	for (auto& [Name, Bytes] : GetView(ViewIndex).HalfHistory->GetParts()) { Parts.emplace_back(Name + ".Half", Bytes); }
+	return Parts;
+}
+
 uint64_t FRenderer::GetHistoryBytes(uint32_t ViewIndex)
 {
 	return GetView(ViewIndex).History->GetBytes() + GetView(ViewIndex).HalfHistory->GetBytes();
@@ -388,6 +400,7 @@ void FRenderer::BeginFeedback()
 	CellCounter->BeginFrame(FlightIndex);
 	CellAuditor->BeginFrame(FlightIndex);
 	ReflectionCounter->BeginFrame(FlightIndex);
+	PathRayCounter->BeginFrame(FlightIndex);
 	Explainer->BeginFrame(FlightIndex);
 	StandIns->BeginFrame(FlightIndex, Context->Scene);
 	QueueDemand->BeginFrame(FlightIndex);
@@ -403,6 +416,7 @@ void FRenderer::StartCounting()
 	if (Status) { Status = CellCounter->Start(AreRadianceCellsCounted()); }
 	if (Status) { Status = CellAuditor->Start(); }
 	if (Status) { Status = ReflectionCounter->Start(ArePathEndsCounted()); }
+	if (Status) { Status = PathRayCounter->Start(ArePathRaysCounted()); }
 	if (Status) { Status = Explainer->Start(GetExplainedPixel().has_value()); }
 	if (Status && bStandIns) { Status = StandIns->Start(Context->Scene, Context->View.Position); }
 	if (!Status) { LogOnce(ERTLogLevel::Warning, std::string("rays are not counted: ") + Status.Message); }
@@ -412,6 +426,7 @@ void FRenderer::StartCounting()
 	CellAuditor->GetCounters().AddClear(*Graph);
 	Context->RadianceAudit = CellAuditor->GetCounters().GetAddress();
 	ReflectionCounter->GetCounters().AddClear(*Graph);
+	PathRayCounter->GetCounters().AddClear(*Graph);
 	Context->ReflectionStatistics = ReflectionCounter->GetCounters().GetAddress();
 	Explainer->GetCounters().AddClear(*Graph);
 	Context->ExplainedPixel = Explainer->GetCounters().GetAddress();
@@ -424,6 +439,7 @@ void FRenderer::EndFeedback(bool bSubmitted)
 	CellCounter->GetCounters().EndFrame(bSubmitted);
 	CellAuditor->GetCounters().EndFrame(bSubmitted);
 	ReflectionCounter->GetCounters().EndFrame(bSubmitted);
+	PathRayCounter->GetCounters().EndFrame(bSubmitted);
 	Explainer->GetCounters().EndFrame(bSubmitted);
 	StandIns->GetCounters().EndFrame(bSubmitted);
 	QueueDemand->EndFrame(bSubmitted);

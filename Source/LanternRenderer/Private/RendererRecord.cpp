@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "Feedback/AnyHitCounter.h"
+#include "Feedback/PathRayCounter.h"
 #include "Feedback/PixelExplainer.h"
 #include "Feedback/RadianceAuditor.h"
 #include "Feedback/RadianceCellCounter.h"
@@ -56,6 +57,7 @@ FRTStatus FRenderer::Execute(const std::function<FRTStatus()>& Run)
 	CellCounter->GetCounters().AddRead(*Graph);
 	CellAuditor->GetCounters().AddRead(*Graph);
 	ReflectionCounter->GetCounters().AddRead(*Graph);
+	PathRayCounter->GetCounters().AddRead(*Graph);
 	Explainer->GetCounters().AddRead(*Graph);
 	StandIns->GetCounters().AddRead(*Graph);
 	FRTStatus Status = FrameStatus;

@@ -87,7 +87,7 @@ TEST_F(FRayQueueTest, QueueThatMayLackRoom)
 			EXPECT_THAT(Passes, Contains(Name)) << Path;
 		}
 		const auto Sort = GetConstants<FSunQueueConstants>(ERTMockCall::Dispatch, "Tiles/QueueSun.comp");
-		const auto Share = GetConstants<FTilesConstants>(ERTMockCall::Dispatch, "Tiles/ShareQueue.comp");
+		const auto Share = GetConstants<FSunQueueConstants>(ERTMockCall::Dispatch, "Tiles/ShareQueue.comp");
 		const ERTMockCall Trace = Path[0] == '1' ? ERTMockCall::TraceRaysIndirect : ERTMockCall::DispatchIndirect;
 		const auto Rays = GetConstants<FShadowQueueConstants>(Trace, "");
 		EXPECT_EQ(Sort.Capacity, Pixels / 8);

@@ -242,9 +242,16 @@ void FHistoryResources::Clear()
 uint64_t FHistoryResources::GetBytes() const
 {
 	uint64_t Bytes = 0;
-	for (const auto& [Name, Pair] : Impl->Textures) { Bytes += 2 * GetTexelBytes(Pair.Desc); }
-	for (const auto& [Name, Kept] : Impl->Buffers) { Bytes += Kept.Desc.Size; }
+	for (const auto& [Name, Size] : GetParts()) { Bytes += Size; }
 	return Bytes;
+}
+
+std::vector<std::pair<std::string, uint64_t>> FHistoryResources::GetParts() const
+{
+	std::vector<std::pair<std::string, uint64_t>> Parts;
+	for (const auto& [Name, Pair] : Impl->Textures) { Parts.emplace_back(Name, 2 * GetTexelBytes(Pair.Desc)); }
+	for (const auto& [Name, Kept] : Impl->Buffers) { Parts.emplace_back(Name, Kept.Desc.Size); }
+	return Parts;
 }
 
 } // namespace Lantern

@@ -92,6 +92,9 @@ struct FRadianceWork
 
 FShaderSource MakeSource(const char* Name) { return MakeComputeSource(std::string("RadianceCells/") + Name + ".comp"); }
 
+static_assert(RADIANCE_CELL_GROUP_SIZE == THREAD_ORDER_GROUP_SIZE, "AddComputePass: groups of Order.comp");
+static_assert(RADIANCE_CELL_MOST_UPDATES % RADIANCE_CELL_GROUP_SIZE == 0, "ListSlots.glsl: groups write whole words");
+
 constexpr const char* SourceNames[] = {"NewCells", "Votes", "Age", "Cut", "List", "ListAgain", "Order", "Commit"};
 
 bool AreReady(const FFrameContext& Context)

@@ -69,8 +69,9 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	const FShadowRayWishes& Wishes = Asked->Wishes;
 	if (Wishes.MoreSunRays > 0 && Rays.Queue.SunWidths.IsValid())
 	{
-		AddMoreRays(
-		    Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Changes, Wishes.SunFilterName, Rays.SunHistory);
+		const FGraphBuffer Lit = Rays.Map.IsValid() ? Rays.Tiles : FGraphBuffer();
+		AddMoreRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Lit, Rays.Changes, Wishes.SunFilterName,
+		    Rays.SunHistory);
 	}
 	return std::make_shared<const FShadowRays>(std::move(Rays));
 }

@@ -8,6 +8,8 @@ namespace Lantern
 
 namespace
 {
+static_assert(RAY_QUEUE_GROUP_SIZE == THREAD_TILE * THREAD_TILE, "MarkThreads.glsl: a group has the bits of a tile");
+
 uint32_t CountBitWords(uint32_t Width, uint32_t Height)
 {
 	const uint64_t Bits = uint64_t(DivideUp(Width, THREAD_TILE)) * DivideUp(Height, THREAD_TILE) * THREAD_TILE * THREAD_TILE;

@@ -72,7 +72,8 @@ void ListMoreRaysShaders(std::vector<FShaderSource>& Out)
 }
 
 void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes, const char* FilterName, FHistoryTexture& OutHistory)
+    const FQueuedRays& Rays, FGraphBuffer Tiles, FGraphBuffer Lit, const FShadowChanges& Changes, const char* FilterName,
+    FHistoryTexture& OutHistory)
 {
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource());
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
@@ -84,7 +85,7 @@ void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDisp
 	Traced.MoreSamples = GetMoreRays();
 	const FGraphBuffer Marks = CreateSunMarks(Context, More);
 	AddAskPass(Context, Pipeline, More, Tiles, Marks, Changes, OutHistory.Previous);
-	AddSunQueuePass(Context, More, Marks, Traced.MoreSamples);
+	AddSunQueuePass(Context, {More, Marks, Lit, Traced.MoreSamples});
 	AddShadowRaysPass(Context, GBuffer, Dispatch, More, Traced);
 }
 

@@ -14,8 +14,9 @@ void ListMoreRaysShaders(std::vector<FShaderSource>& Out);
 
 /// Adds the passes that ask for further rays and trace them, behind those that trace Queue and what its tiles have left out. Does
 /// nothing in a frame that shows the last one's view of a scene in which nothing moved. Changes: of the sun's shadows. FilterName: their FDenoiseInputs::Name. OutHistory: theirs, if
-/// it was asked for.
+/// it was asked for. Lit: see FSunQueue::Tiles.
 void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes, const char* FilterName, FHistoryTexture& OutHistory);
+    const FQueuedRays& Rays, FGraphBuffer Tiles, FGraphBuffer Lit, const FShadowChanges& Changes, const char* FilterName,
+    FHistoryTexture& OutHistory);
 
 } // namespace Lantern

@@ -134,9 +134,8 @@ void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayD
 	Second.bRest = true;
 	const FGraphBuffer Marks = CreateSunMarks(Context, Second);
 	AddCheckPass(Context, Check, Second, Tiles, Marks, Settled.Known.Current);
-	AddSunQueuePass(Context, Second, Marks, 1);
 	// What has no room makes its tile unsettled: the next frame asks the first queue, which then grows.
-	if (MayLackSunRays(Context, Queue)) { AddShareQueuePass(Context, Second, Tiles, true); }
+	AddSunQueuePass(Context, {Second, Marks, {}, 1, MayLackSunRays(Context, Queue)});
 	AddShadowRaysPass(Context, GBuffer, Dispatch, Second, Rays);
 }
 

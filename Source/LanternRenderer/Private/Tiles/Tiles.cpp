@@ -19,17 +19,6 @@ struct FTilesPass
 	FHostShadowMap Map;
 };
 
-FTilesConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FTilesPass& Inputs)
-{
-	FTilesConstants C{};
-	C.Pass = Frame.Pass;
-	C.Tiles = GetAddress(Pass, Inputs.Tiles);
-	C.Requests = GetAddress(Pass, Inputs.Queue.Requests);
-	C.Counters = GetAddress(Pass, Inputs.Queue.Counters);
-	C.Capacity = Inputs.Queue.Capacity;
-	return C;
-}
-
 void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass& Inputs)
 {
 	const FFrameContext* const Frame = &Context;
@@ -74,6 +63,43 @@ FShaderSource MakeTilesSource(const FSceneFacts& Facts, const FSunRates& Rates)
 FShaderSource MakeSunQueueSource() { return MakeComputeSource("Tiles/QueueSun.comp"); }
 
 uint32_t CountTiles(const FFrameContext& Context) { return DivideUp(Context.Width, TILE_SIZE) * DivideUp(Context.Height, TILE_SIZE); }
+
+constexpr uint32_t OrderedTiles = 2 * THREAD_ORDER_GROUP_SIZE; // of a work group of QueueSun.comp
+static_assert(THREAD_ORDER_BITS == 2 * TILE_PIXELS, "an entry of marks has two tiles");
+
+/// Rays: SUN_QUEUE_…
+void AddQueuePass(FFrameContext& Context, const FSunQueue& Inputs, const std::string& Name, const FShaderSource& Shader, uint32_t Rays,
+    uint32_t TilesPerGroup)
+{
+	IRTPipeline* const Pipeline = RequireCompute(Context, Shader);
+	const FFrameContext* const Frame = &Context;
+	const bool bKept = Rays == SUN_QUEUE_KEPT;
+	Context.Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(Inputs.Marks, bKept ? ERTAccess::StorageRead : ERTAccess::ShaderRead);
+		if (bKept) { Builder.Write(Inputs.Marks, ERTAccess::StorageWrite); }
+		if (Inputs.Tiles.IsValid()) { Builder.Read(Inputs.Tiles, ERTAccess::ShaderRead); }
+		for (const FGraphBuffer Buffer : {Inputs.Queue.Requests, Inputs.Queue.Counters})
+		{
+			if (bKept) { Builder.Read(Buffer, ERTAccess::StorageRead); }
+			Builder.Write(Buffer, ERTAccess::StorageWrite);
+		}
+		Builder.AllowAsync();
+		return [=](FPassContext& Pass) {
+			if (!bKept) { StartQueue(Pass, Inputs.Queue); }
+			FSunQueueConstants C{};
+			C.Pass = Frame->Pass;
+			C.Marks = GetAddress(Pass, Inputs.Marks);
+			C.Tiles = GetAddress(Pass, Inputs.Tiles);
+			C.Requests = GetAddress(Pass, Inputs.Queue.Requests);
+			C.Counters = GetAddress(Pass, Inputs.Queue.Counters);
+			C.Capacity = Inputs.Queue.Capacity;
+			C.TileCount = CountTiles(*Frame);
+			C.Samples = Inputs.Samples;
+			C.Rays = Rays;
+			Dispatch2D(Pass, Pipeline, C, C.TileCount, 1, TilesPerGroup);
+		};
+	});
+}
 } // namespace
 
 bool MayLackSunRays(const FFrameContext& Context, const FRayQueue& Queue)
@@ -93,54 +119,16 @@ FGraphBuffer CreateSunMarks(FFrameContext& Context, const FRayQueue& Queue)
 	return Context.Graph.CreateBuffer({Pairs * (THREAD_ORDER_BITS / 8)}, (Queue.Name + "Marks").c_str());
 }
 
-void AddSunQueuePass(FFrameContext& Context, const FRayQueue& Queue, FGraphBuffer Marks, uint32_t Samples, FGraphBuffer Tiles)
+void AddSunQueuePass(FFrameContext& Context, const FSunQueue& Inputs)
 {
-	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSunQueueSource());
-	const FFrameContext* const Frame = &Context;
-	Context.Graph.AddPass((Queue.Name + "Queue").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(Marks, ERTAccess::ShaderRead);
-		if (Tiles.IsValid()) { Builder.Read(Tiles, ERTAccess::ShaderRead); }
-		for (const FGraphBuffer Buffer : {Queue.Requests, Queue.Counters}) { Builder.Write(Buffer, ERTAccess::StorageWrite); }
-		Builder.AllowAsync();
-		return [=](FPassContext& Pass) {
-			StartQueue(Pass, Queue);
-			FSunQueueConstants C{};
-			C.Pass = Frame->Pass;
-			C.Marks = GetAddress(Pass, Marks);
-			C.Tiles = GetAddress(Pass, Tiles);
-			C.Requests = GetAddress(Pass, Queue.Requests);
-			C.Counters = GetAddress(Pass, Queue.Counters);
-			C.Capacity = Queue.Capacity;
-			C.TileCount = CountTiles(*Frame);
-			C.Samples = Samples;
-			Dispatch2D(Pass, Pipeline, C, DivideUp(C.TileCount * TILE_PIXELS, THREAD_ORDER_BITS), 1, THREAD_ORDER_GROUP_SIZE);
-		};
-	});
+	const bool bShare = Inputs.bMayLackRoom;
+	AddQueuePass(Context, Inputs, Inputs.Queue.Name + "Queue", MakeSunQueueSource(), bShare ? SUN_QUEUE_ALL : SUN_QUEUE_ROOM, OrderedTiles);
+	if (!bShare) { return; }
+	AddQueuePass(Context, Inputs, Inputs.Queue.Name + "Share", MakeShareSource(), SUN_QUEUE_KEPT, TILE_PIXELS);
+	AddQueuePass(Context, Inputs, Inputs.Queue.Name + "Kept", MakeSunQueueSource(), SUN_QUEUE_KEPT, OrderedTiles);
 }
 
 FShaderSource MakeShareSource() { return MakeComputeSource("Tiles/ShareQueue.comp"); }
-
-void AddShareQueuePass(FFrameContext& Context, const FRayQueue& Queue, FGraphBuffer Tiles, bool bRest)
-{
-	IRTPipeline* const Pipeline = RequireCompute(Context, MakeShareSource());
-	if (!Pipeline) { return; } // AddTilesPass had it
-	const FFrameContext* const Frame = &Context;
-	const FTilesPass Inputs{{}, Queue, Tiles};
-	Context.Graph.AddPass((Queue.Name + "Share").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(Tiles, ERTAccess::ShaderRead);
-		for (const FGraphBuffer Buffer : {Queue.Requests, Queue.Counters})
-		{
-			Builder.Read(Buffer, ERTAccess::StorageRead);
-			Builder.Write(Buffer, ERTAccess::StorageWrite);
-		}
-		Builder.AllowAsync();
-		return [=](FPassContext& Pass) {
-			FTilesConstants C = MakeConstants(Pass, *Frame, Inputs);
-			C.bSunRest = bRest ? 1u : 0u;
-			Dispatch2D(Pass, Pipeline, C, CountTiles(*Frame), 1, TILE_PIXELS);
-		};
-	});
-}
 
 FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun,
     const FSettledTiles& Settled, const FHostShadowMap& Map)
@@ -153,8 +141,7 @@ FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const
 	Inputs.Tiles = Context.Graph.CreateBuffer({uint64_t(CountTiles(Context)) * sizeof(FTile)}, "Tiles");
 	Inputs.Marks = CreateSunMarks(Context, Queue);
 	AddSortPass(Context, Sort, Inputs);
-	AddSunQueuePass(Context, Queue, Inputs.Marks, 1, Map.IsValid() ? Inputs.Tiles : FGraphBuffer());
-	if (bShare) { AddShareQueuePass(Context, Queue, Inputs.Tiles, false); }
+	AddSunQueuePass(Context, {Queue, Inputs.Marks, Map.IsValid() ? Inputs.Tiles : FGraphBuffer(), 1, bShare});
 	return Inputs.Tiles;
 }
 

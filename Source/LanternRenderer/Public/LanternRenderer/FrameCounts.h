@@ -27,6 +27,16 @@ struct FRayCounts
 	uint32_t Frames = 0;                                  ///< number of frames that have arrived
 };
 
+/// Counts of the rays that paths really traced, of all passes, with r.RT.Rays.CountPaths. A frame's counts arrive two frames later, or with
+/// WaitForAll.
+struct FPathRayCounts
+{
+	uint32_t Surfaces = 0; ///< rays that look for a surface
+	uint32_t Lights = 0;   ///< rays from a surface to a light
+	uint32_t Checks = 0;   ///< rays that test whether light of a radiance cell, or of a kept path, arrives
+	uint32_t Frames = 0;   ///< number of frames that have arrived
+};
+
 /// Counts of radiance cells in the newest frame that has arrived, with r.RT.GI.Cells.Count. A frame's counts arrive two frames later, or
 /// with WaitForAll.
 struct FRadianceCellCounts

@@ -95,6 +95,7 @@ class FRadianceAuditor;
 class FRadianceCellCounter;
 class FRadianceEvents;
 class FRayQueueCounter;
+class FPathRayCounter;
 class FReflectionCounter;
 class FRayQueueDemand;
 class FRefitQuality;
@@ -163,6 +164,8 @@ public:
 	void ClearHistories(uint32_t ViewIndex = 0);
 	/// Returns the memory of it, in bytes.
 	uint64_t GetHistoryBytes(uint32_t ViewIndex = 0);
+	/// Returns the parts of it by name, in bytes.
+	std::vector<std::pair<std::string, uint64_t>> GetHistoryParts(uint32_t ViewIndex = 0);
 	FLightCells& GetLightCells(uint32_t ViewIndex = 0) { return *GetView(ViewIndex).LightCells; }
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
 	/// Returns the RTPSO of the last frame; null if it had none.
@@ -180,6 +183,7 @@ public:
 	const FRadianceCellCounts& GetRadianceCells() const;
 	const FRadianceAudit& GetRadianceAudit() const;
 	const FReflectionCounts& GetReflectionCounts() const;
+	const FPathRayCounts& GetPathRayCounts() const;
 	const FPixelExplanation& GetPixelExplanation() const;
 	/// Makes executed frames leave a text for DumpGraph. Off by default, because it takes longer than the graph itself.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
@@ -224,6 +228,7 @@ private:
 	std::unique_ptr<FRadianceCellCounter> CellCounter;
 	std::unique_ptr<FRadianceAuditor> CellAuditor;
 	std::unique_ptr<FReflectionCounter> ReflectionCounter;
+	std::unique_ptr<FPathRayCounter> PathRayCounter;
 	std::unique_ptr<FPixelExplainer> Explainer;
 	std::unique_ptr<FSkyBake> Sky;
 	FMaterialPrograms Programs;

@@ -16,6 +16,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "LanternCore/FrameGraph/FrameGraph.h"
 
@@ -68,6 +70,8 @@ public:
 	/// Frees everything. Only between frames.
 	void Clear();
 	uint64_t GetBytes() const; ///< memory held, without the driver's padding
+	/// Returns the parts of it by name, in no order.
+	std::vector<std::pair<std::string, uint64_t>> GetParts() const;
 
 	static constexpr uint32_t KeepFrames = 8;
 
