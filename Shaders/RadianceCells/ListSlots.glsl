@@ -1,7 +1,7 @@
 // Marks threads whose slots a round updates; Order.comp lists them. Included behind RadianceCellSlots.glsl.
 
-const uint MarkedWords = GROUP_SIZE / 32u;
-shared uint Marked[MarkedWords];
+#define MARK_GROUP_SIZE GROUP_SIZE
+#include "../Library/MarkBits.glsl"
 
 // Turn: another one for each time that a cell is asked for.
 bool IsTakenByChance(FRadianceGrid Grid, FRadianceCell Cell, uint Turn, float Share)
@@ -12,10 +12,6 @@ bool IsTakenByChance(FRadianceGrid Grid, FRadianceCell Cell, uint Turn, float Sh
 // All threads of a work group call it once.
 void MarkSlot(FRadianceGrid Grid, bool bListed)
 {
-	uint Lane = gl_LocalInvocationIndex;
-	if (Lane < MarkedWords) { Marked[Lane] = 0u; }
-	barrier();
-	if (bListed) { atomicOr(Marked[Lane >> 5u], 1u << (Lane & 31u)); }
-	barrier();
-	if (Lane < MarkedWords) { FRadianceWordRef(Grid.Marks).Data[(GetThread() - Lane) / 32u + Lane] = Marked[Lane]; }
+	uint Bits, Lane = gl_LocalInvocationIndex;
+	if (MarkBits(bListed, Bits)) { FRadianceWordRef(Grid.Marks).Data[(GetThread() - Lane) / 32u + Lane] = Bits; }
 }

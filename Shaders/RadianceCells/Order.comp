@@ -19,8 +19,7 @@ void main()
 {
 	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
 	uint Bits = Push.Round == 0u ? GetSlotCount(Grid) : RADIANCE_CELL_MOST_UPDATES;
-	uint Group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-	uint Count = (Bits + THREAD_ORDER_BITS - 1u) / THREAD_ORDER_BITS;
+	uint Group = GetThread() / GROUP_SIZE, Count = (Bits + THREAD_ORDER_BITS - 1u) / THREAD_ORDER_BITS;
 	uint Sum = OrderBits(Count, Group);
 	if (HasWholeCount(Count, Group)) { FRadianceCountersRef(Grid.Counters).Data.Listed[Push.Round] = Sum; }
 }

@@ -10,8 +10,7 @@ namespace
 {
 TRTConsoleVariable<bool> CVarCount("r.RT.Rays.CountPaths", false,
     "Counts the rays that paths trace: global illumination, updates of radiance cells, reflections and what light shines through. Each "
-    "takes "
-    "longer for it: for measurements only.");
+    "takes longer for it: for measurements only.");
 
 FPathRayCounts MakeCounts(const FPathRayStatistics& Of)
 {
