@@ -143,8 +143,15 @@ uint RadianceLevel(FRadianceGrid Grid, float Distance, float U)
 }
 
 // Rank: surfaces between the camera and the look-up, 1 or more: near ones win. Hash: random.
-uint MakeRadianceVote(uint Rank, uint Hash) { return ((7u - min(Rank, 7u)) << 29u) | max(Hash >> 3u, 1u); }
+uint MakeRadianceVote(uint Rank, uint Hash) { return ((7u - clamp(Rank, 1u, 7u)) << 29u) | max(Hash >> 3u, 1u); }
 uint RankOfVote(uint Vote) { return 7u - (Vote >> 29u); }
+
+// Votes may be equal: two cells of other sizes at one place draw the same path. The first of their notes then wins, and its claim stands in for
+// the vote. Claims are above all votes.
+const uint VoteClaim = 0xe0000000u;
+bool IsVoteClaim(uint Vote) { return Vote >= VoteClaim; }
+uint MakeVoteClaim(uint Note) { return VoteClaim | (~Note & ~VoteClaim); }
+uint NoteOfClaim(uint Claim) { return ~Claim & ~VoteClaim; }
 
 // The rank of the look-up that has given a cell its place, in the bits that PackMeanDirection leaves. It ends at the greatest.
 const uint RankShift = 30u, GreatestRank = 4u;

@@ -17,7 +17,14 @@ float CoverageOf(FMaterialData Material, FMaterialInputs Inputs)
 #endif
 }
 
-// Returns −ln of the share, by luminance, or SolidDepth. Direction: of the ray, object space, of any length.
+// Rays add up depths in the order in which they meet surfaces, which differs from run to run. Sums of such steps are exact below 1024.
+float RoundDepth(float Depth)
+{
+	const float Steps = 16384.0; // to 1
+	return round(Depth * Steps) / Steps;
+}
+
+// Returns −ln of the share, by luminance, in whole steps, or SolidDepth. Direction: of the ray, object space, of any length.
 float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 Barycentrics, vec3 Direction)
 {
 	const float Least = 1.0e-4;
@@ -29,7 +36,7 @@ float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primiti
 	if ((Material.Flags & MATERIAL_BLENDED) != 0u)
 	{
 		float Coverage = CoverageOf(Material, Inputs);
-		return Coverage < LeastSolidOpacity ? -log(1.0 - max(Coverage, 0.0)) : SolidDepth;
+		return Coverage < LeastSolidOpacity ? RoundDepth(-log(1.0 - max(Coverage, 0.0))) : SolidDepth;
 	}
 	float Side = dot(Normal, Direction);
 	float Cosine = abs(Side) * inversesqrt(max(dot(Normal, Normal) * dot(Direction, Direction), 1.0e-30));
@@ -44,7 +51,7 @@ float SeeThroughDepth(FMaterialRef Materials, FSectionData Section, uint Primiti
 		float Widened = 2.0 * log(clamp(Material.Ior, 1.0, Most));
 		Depth += Side > 0.0 ? Widened : -Widened;
 	}
-	return Depth;
+	return RoundDepth(Depth);
 }
 
 #endif

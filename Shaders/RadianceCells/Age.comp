@@ -1,8 +1,23 @@
-// Frees cells that nobody has asked for, and counts the others by urgency. New ones are found from here on.
+// Frees cells that nobody has asked for, and counts the others by urgency. Those that a look-up has claimed get its place. New ones are found
+// from here on.
 #version 460
 #include "RadianceCellSlots.glsl"
 
 shared uint Bins[RADIANCE_CELL_BINS];
+
+void TakePlace(FRadianceGrid Grid, uint Slot, inout FRadianceCell Cell)
+{
+	FRadianceVote Vote = FRadianceVoteRef(GetNote(Grid, NoteOfClaim(Cell.Vote))).Data[0];
+	Cell.Place = Vote.Place;
+	Cell.GeometricNormal = Vote.GeometricNormal | (Cell.GeometricNormal & ~NormalMask);
+	Cell.Normal = Vote.Normal | (Cell.Normal & ~NormalMask);
+	Cell.From = PackRank(RankOfVote(Vote.Vote)) | (Cell.From & MeanDirectionMask);
+	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
+	Cells.Data[Slot].Place = Cell.Place;
+	Cells.Data[Slot].GeometricNormal = Cell.GeometricNormal;
+	Cells.Data[Slot].Normal = Cell.Normal;
+	Cells.Data[Slot].From = Cell.From;
+}
 
 void main()
 {
@@ -32,6 +47,7 @@ void main()
 		else
 		{
 			if (bNew) { Keys.Data[Slot] = Key | SettledKey; }
+			if (IsVoteClaim(Cell.Vote)) { TakePlace(Grid, Slot, Cell); }
 			atomicAdd(Bins[GetBin(Grid, Cell)], 1u);
 		}
 	}

@@ -1,4 +1,4 @@
-// Gives each cell the place of the look-up that won its vote. Look-ups that are further from the camera than the one that a cell has its place
+// Finds the look-up that won the vote of each cell, whose place Age.comp gives to the cell. Look-ups that are further from the camera than the one that a cell has its place
 // from must be lucky. What overlaps, as floors do that run on under walls, has parts that only rays within it reach. Its light is not that of
 // the rest of their cells, and these rays look up cells as often as others.
 #version 460
@@ -27,13 +27,11 @@ void main()
 	if (Vote.Vote == 0u || Vote.Slot >= GetSlotCount(Grid)) { return; } // a table begins with zeroes
 	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 	FRadianceCell Cell = Cells.Data[Vote.Slot];
-	if (Cell.Vote != Vote.Vote) { return; }
+	uint Greatest = IsVoteClaim(Cell.Vote) ? FRadianceVoteRef(GetNote(Grid, NoteOfClaim(Cell.Vote))).Data[0].Vote : Cell.Vote;
+	if (Greatest != Vote.Vote) { return; }
 	uint Rank = RankOfVote(Vote.Vote);
 	bool bLucky = (Vote.Vote & (FurtherVotes - 1u)) == 0u;
 	if (RadianceCellCount(Cell.State) > 0u && Rank > UnpackRank(Cell.From) && !bLucky &&
 	    !IsInMover(Grid, FromRadianceSteps(Grid, Vote.Place))) { return; }
-	Cells.Data[Vote.Slot].Place = Vote.Place;
-	Cells.Data[Vote.Slot].GeometricNormal = Vote.GeometricNormal | (Cell.GeometricNormal & ~NormalMask);
-	Cells.Data[Vote.Slot].Normal = Vote.Normal | (Cell.Normal & ~NormalMask);
-	Cells.Data[Vote.Slot].From = PackRank(Rank) | (Cell.From & MeanDirectionMask);
+	atomicMax(Cells.Data[Vote.Slot].Vote, MakeVoteClaim(Number));
 }

@@ -38,7 +38,8 @@ VkDeviceAddress AddressIn(IRTBuffer* Buffer, uint64_t Offset) { return Buffer ? 
 VkAccelerationStructureGeometryKHR MakeGeometry(const FRTGeometrySection& Section)
 {
 	VkAccelerationStructureGeometryKHR Geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
-	Geometry.flags = Section.bOpaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : 0;
+	// Any-hit shaders add up what surfaces let through: a second call for one triangle would count it twice.
+	Geometry.flags = Section.bOpaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
 	if (Section.bProcedural)
 	{
 		Geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
