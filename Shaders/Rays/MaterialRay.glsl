@@ -34,12 +34,15 @@ bool bSeesHits = true;
 
 const float Infinity = 1.0e30;
 
+// Surfaces that light shines through count as not opaque (FRangeFlags::bOpaqueGlass). Their meshes have other parts as well, which need not be met.
+uint RayFlagsOf(uint Mask) { return Mask == MASK_TRANSMISSIVE ? gl_RayFlagsCullOpaqueEXT : 0u; }
+
 // Shows: what of emission is asked for; SHOWS_NOTHING: what lights.
 FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance, uint Shows)
 {
 	CountPathRay(Scene, PATH_RAY_SURFACE);
 #ifdef RAY_QUERY
-	return QueryMaterialHit(Scene, Mask, Origin, Direction, MaxDistance, Shows == SHOWS_NOTHING);
+	return QueryMaterialHit(Scene, RayFlagsOf(Mask), Mask, Origin, Direction, MaxDistance, Shows == SHOWS_NOTHING);
 #else
 #ifdef HAS_LIGHT_EMISSION
 	MaterialPayload.W1 = Shows == SHOWS_NOTHING ? ASKS_FOR_LIGHT : 0u;
@@ -48,11 +51,11 @@ FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 D
 #ifdef REORDER
 	// Threads that hit alike run the hit's shader together.
 	hitObjectNV Hit;
-	hitObjectTraceRayNV(Hit, Scenes[Scene.Tlas], 0u, Mask, HIT_TYPE, RAY_TYPES, HIT_TYPE, Origin, 0.0, Direction, MaxDistance, 0);
+	hitObjectTraceRayNV(Hit, Scenes[Scene.Tlas], RayFlagsOf(Mask), Mask, HIT_TYPE, RAY_TYPES, HIT_TYPE, Origin, 0.0, Direction, MaxDistance, 0);
 	reorderThreadNV(Hit);
 	hitObjectExecuteShaderNV(Hit, 0);
 #else
-	traceRayEXT(Scenes[Scene.Tlas], 0u, Mask, HIT_TYPE, RAY_TYPES, HIT_TYPE, Origin, 0.0, Direction, MaxDistance, 0);
+	traceRayEXT(Scenes[Scene.Tlas], RayFlagsOf(Mask), Mask, HIT_TYPE, RAY_TYPES, HIT_TYPE, Origin, 0.0, Direction, MaxDistance, 0);
 #endif
 	return UnpackHit(MaterialPayload);
 #endif

@@ -7,12 +7,12 @@
 #include "HitSurface.glsl"
 #include "QueryRay.glsl"
 
-// bForLight: the emission is what lights, and not what is seen (FMaterialData::LightEmissive).
-FMaterialHit QueryMaterialHit(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance, bool bForLight)
+// Flags: gl_RayFlags…. bForLight: the emission is what lights, and not what is seen (FMaterialData::LightEmissive).
+FMaterialHit QueryMaterialHit(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance, bool bForLight)
 {
 	FMaterialHit Hit;
 	Hit.Distance = -1.0;
-	TraceRayQuery(Scene, 0u, Mask, Origin, Direction, MaxDistance);
+	TraceRayQuery(Scene, Flags, Mask, Origin, Direction, MaxDistance);
 	if (IsRayQueryMiss()) { return Hit; }
 	FHitPlace Place;
 	Place.Object = rayQueryGetIntersectionInstanceCustomIndexEXT(RayQuery, true);

@@ -216,6 +216,36 @@ TEST_F(FSceneObjectTest, FlagsAndMasksReachTheInstances)
 	}
 }
 
+// Rays that look for glass cull what is opaque (MaterialRay.glsl): glass that was built as opaque would vanish.
+TEST_F(FSceneObjectTest, GlassIsNeverCulledAsOpaque)
+{
+	FMaterialData Glass = MakeMaterial();
+	Glass.Transmission = 1.0f;
+	const uint32_t Pane = Scene->AddMaterial(Glass), Wall = Scene->AddMaterial(MakeMaterial());
+	FRTObjectInfo Info;
+	Info.Mask = MaskVisible | MASK_TRANSMISSIVE;
+	Info.Materials = {Wall, Pane};
+	Info.Geometry = MakeGeometry("House", 2, {.bOpaque = true});
+	const FRTObjectId Solid = Scene->AddObject(Info);
+	Info.Geometry = MakeGeometry("HouseOfGlass", 2, {.bOpaque = false});
+	const FRTObjectId Open = Scene->AddObject(Info);
+	const auto ExpectFlags = [&](uint32_t OfSolid, uint32_t OfOpen) {
+		Settle();
+		ASSERT_EQ(GetInstances().size(), 2u);
+		for (const FRTMockInstance& Item : GetInstances())
+		{
+			const bool bSolid = GetObjectIndex(Item) == Solid.Index;
+			EXPECT_TRUE(bSolid || GetObjectIndex(Item) == Open.Index);
+			EXPECT_EQ(GetFlags(Item), bSolid ? OfSolid : OfOpen) << (bSolid ? "solid" : "open");
+		}
+	};
+	ExpectFlags(InstanceForceNoOpaque, 0);
+	Scene->SetMaterial(Pane, MakeMaterial());
+	ExpectFlags(InstanceForceOpaque, InstanceForceOpaque);
+	Scene->SetMaterial(Pane, Glass);
+	ExpectFlags(InstanceForceNoOpaque, 0);
+}
+
 TEST_F(FSceneObjectTest, RemovalWhileFramesAreInFlightLeavesNothingDangling)
 {
 	Mock().SetManualFences(true);

@@ -32,9 +32,10 @@ FInstanceBinding FRangeBindings::Make(const FSectionTable& Sections, const FSect
 {
 	// A binding without a geometry slot: shaders are missing, and building the geometry sooner would not help.
 	if (!Range.Geometry || IsProgramMissing(Sections, Range)) { return {}; }
+	// Rays that look for glass cull what is opaque.
+	const uint32_t Opacity = Range.bOpaqueGlass ? InstanceForceNoOpaque : Range.bMasked || Range.bTransmissive ? 0u : InstanceForceOpaque;
 	// Facing can be switched off for instances, not for sections: mixed objects are culled.
-	const uint32_t Flags =
-	    (Range.bMasked || Range.bTransmissive ? 0u : InstanceForceOpaque) | (Range.bDoubleSided ? InstanceCullDisable : 0u);
+	const uint32_t Flags = Opacity | (Range.bDoubleSided ? InstanceCullDisable : 0u);
 	FInstanceBinding Binding;
 	Binding.TableOffsetAndFlags = ((Range.First * RayTypes) & 0xffffffu) | (Flags << 24);
 	if (!Range.bTransmissive) { Binding.MaskBits &= ~(uint32_t(MASK_TRANSMISSIVE) << 24); }

@@ -283,9 +283,15 @@ void FSectionTable::UpdateFlags(FSectionRangeId Id)
 		bDiffuseTransmission |= Context.Override == 0 && Data.DiffuseTransmission > 0.0f;
 		bScattering |= IsScattering(Context, Data);
 	}
-	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
-	for (uint32_t Part = 0; Part < Parts; ++Part) { bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0; }
-	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission, bTransmissive, bDiffuseTransmission, bScattering});
+	bool bOpaqueGlass = false;
+	const std::vector<FRTGeometryPart>& Parts = Range.Geometry->GetParts();
+	for (uint32_t Part = 0; Part < Parts.size(); ++Part)
+	{
+		const FSectionData& Section = Table[Range.First + Part];
+		bMasked |= (Section.Flags & SECTION_MASKED) != 0;
+		bOpaqueGlass |= Parts[Part].bOpaque && IsTransmissive(Context, Context.Materials[Section.Material]);
+	}
+	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission, bTransmissive, bOpaqueGlass, bDiffuseTransmission, bScattering});
 	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
 	{
 		RefutedGeometries.push_back(Range.Geometry->weak_from_this());

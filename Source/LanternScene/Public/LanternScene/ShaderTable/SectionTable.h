@@ -33,6 +33,7 @@ struct FRangeFlags
 	bool bEmissive = false;            ///< some material emits
 	bool bLightEmission = false;       ///< some material lights otherwise than it looks: FMaterialData::LightEmissive
 	bool bTransmissive = false;        ///< light shines through some material
+	bool bOpaqueGlass = false;         ///< and that of a part which the acceleration structure holds as opaque
 	bool bDiffuseTransmission = false; ///< some material scatters light through to its other side
 	bool bScattering = false;          ///< light is scattered within some solid
 	friend bool operator==(const FRangeFlags&, const FRangeFlags&) = default;
