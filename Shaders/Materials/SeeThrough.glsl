@@ -21,7 +21,7 @@ float CoverageOf(FMaterialData Material, FMaterialInputs Inputs)
 float RoundDepth(float Depth)
 {
 	const float Steps = 16384.0; // to 1
-	return round(Depth * Steps) / Steps;
+	return round(Depth * Steps) * (1.0 / Steps);
 }
 
 // Returns −ln of the share, by luminance, in whole steps, or SolidDepth. Direction: of the ray, object space, of any length.

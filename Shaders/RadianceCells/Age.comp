@@ -47,7 +47,7 @@ void main()
 		else
 		{
 			if (bNew) { Keys.Data[Slot] = Key | SettledKey; }
-			if (IsVoteClaim(Cell.Vote)) { TakePlace(Grid, Slot, Cell); }
+			if (IsClaimed(Grid, Cell.Vote)) { TakePlace(Grid, Slot, Cell); }
 			atomicAdd(Bins[GetBin(Grid, Cell)], 1u);
 		}
 	}

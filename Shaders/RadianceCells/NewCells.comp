@@ -9,7 +9,8 @@ void main()
 	if (Number >= CountNotes(Grid)) { return; }
 	FRadianceVoteRef Note = FRadianceVoteRef(GetNote(Grid, Number));
 	uint Named = Note.Data[0].Slot, Name = Named & ~NEW_RADIANCE_CELL;
-	if (Named < NEW_RADIANCE_CELL || !IsKeyName(Name) || Note.Data[0].Vote == 0u) { return; } // also notes that nobody has written
+	uint Vote = Note.Data[0].Vote;
+	if (Named < NEW_RADIANCE_CELL || !IsKeyName(Name) || Vote == 0u || IsVoteClaim(Vote)) { return; } // also notes that nobody has written
 	uint Slot = FindNewKey(Grid, MakeNamedKey(Grid, Note.Data[0].Place, Name));
 	Note.Data[0].Slot = Slot;
 	if (Slot == NO_RADIANCE_CELL)
@@ -18,5 +19,5 @@ void main()
 		return;
 	}
 	AskRadianceCell(Grid, Slot, (Name & NameCoarse) != 0u);
-	atomicMax(FRadianceCellRef(Grid.Cells).Data[Slot].Vote, Note.Data[0].Vote);
+	atomicMax(FRadianceCellRef(Grid.Cells).Data[Slot].Vote, Vote);
 }

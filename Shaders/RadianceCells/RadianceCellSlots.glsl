@@ -19,6 +19,9 @@ FAddress GetNote(FRadianceGrid Grid, uint Number)
 	return GetVoteNote(bPixel ? Grid.Votes : Grid.UpdateVotes, bPixel ? Number : Number - Grid.VoteCount);
 }
 
+// Whether a cell's vote is a claim, of a note that there is.
+bool IsClaimed(FRadianceGrid Grid, uint Vote) { return IsVoteClaim(Vote) && NoteOfClaim(Vote) < CountNotes(Grid); }
+
 const uint YoungBins = 6u;   // of coarse cells, and of fine ones that know little
 const uint YoungCoarse = 9u; // count, from about 30 updates, up to which a coarse cell, which stands in for many, comes first
 

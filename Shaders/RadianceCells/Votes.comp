@@ -1,6 +1,6 @@
-// Finds the look-up that won the vote of each cell, whose place Age.comp gives to the cell. Look-ups that are further from the camera than the one that a cell has its place
-// from must be lucky. What overlaps, as floors do that run on under walls, has parts that only rays within it reach. Its light is not that of
-// the rest of their cells, and these rays look up cells as often as others.
+// Finds the look-up that won the vote of each cell, whose place Age.comp gives to the cell. Look-ups that are further from the camera than the one
+// that a cell has its place from must be lucky. What overlaps, as floors do that run on under walls, has parts that only rays within it reach.
+// Its light is not that of the rest of their cells, and these rays look up cells as often as others.
 #version 460
 #include "RadianceCellSlots.glsl"
 #include "../Library/MovedShare.glsl"
@@ -27,7 +27,7 @@ void main()
 	if (Vote.Vote == 0u || Vote.Slot >= GetSlotCount(Grid)) { return; } // a table begins with zeroes
 	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 	FRadianceCell Cell = Cells.Data[Vote.Slot];
-	uint Greatest = IsVoteClaim(Cell.Vote) ? FRadianceVoteRef(GetNote(Grid, NoteOfClaim(Cell.Vote))).Data[0].Vote : Cell.Vote;
+	uint Greatest = IsClaimed(Grid, Cell.Vote) ? FRadianceVoteRef(GetNote(Grid, NoteOfClaim(Cell.Vote))).Data[0].Vote : Cell.Vote;
 	if (Greatest != Vote.Vote) { return; }
 	uint Rank = RankOfVote(Vote.Vote);
 	bool bLucky = (Vote.Vote & (FurtherVotes - 1u)) == 0u;

@@ -34,7 +34,7 @@ LANTERN_SHARED_BEGIN
 struct FRadianceCell
 {
 	uint State; // RADIANCE_CELL_…
-	uint Vote;  // the greatest of this frame's look-ups (MakeRadianceVote); 0: nobody voted
+	uint Vote;  // the greatest of this frame's look-ups (MakeRadianceVote), then a claim (MakeVoteClaim); 0: nobody voted
 	ivec3 Place; // where rays of updates start, in steps of the light grid (LIGHT_POSITION_STEPS), modulo 2^32
 	uint GeometricNormal; // there: by PackOct24, and PackBefore's bits
 	uint Normal;          // there: by PackOct24, and PackTrend's bits

@@ -14,7 +14,8 @@ float DistanceOfLayers(float Distance)
 
 // Finds the next such surface along a camera ray, and returns whether there is one. It passes through the backs of single-sided ones, as
 // the raster does, and through what blended ones leave clear. Glass so near to the G-buffer's surface may lie behind it. Blended surfaces lie
-// on it, as decals do: the raster shows none of them where they are not solid.
+// on it, as decals do: the raster shows none of them where they are not solid. The ray passes what is opaque, so a blended surface shows that
+// lies behind it by less than the depth's rounding.
 // Origin, Left: advanced to where the ray that met it starts, and how far it may go.
 bool FindLayer(FSceneConstants Scene, inout vec3 Origin, vec3 Direction, inout float Left, out FMaterialHit Hit)
 {

@@ -268,6 +268,19 @@ TEST_P(FRecordContract, AnyHitRunsOnNonOpaqueOnly)
 	EXPECT_EQ(Trace(4, MakePush(RayNoOpaque)), (FWords{MissOne, MissOne, MissOne, MissOne}));
 }
 
+// What counts as opaque is decided by the instance before rays cull it. The groups have no any-hit shader: what is not opaque is hit.
+TEST_P(FRecordContract, InstancesDecideWhatIsCulledAsOpaque)
+{
+	MakeTable(1);
+	SetHit(0, 1);
+	const FContractGeometry Solid = MakeSquares(1, true), Masked = MakeSquares(1, false);
+	FRTInstance Forced = Place(Masked, 2, 2), Opened = Place(Solid, 3, 3);
+	Forced.TableOffsetAndFlags |= static_cast<uint32_t>(InstanceForceOpaque) << 24;
+	Opened.TableOffsetAndFlags |= static_cast<uint32_t>(InstanceForceNoOpaque) << 24;
+	Load({&Solid, &Masked}, {Place(Solid, 0, 0), Place(Masked, 1, 1), Forced, Opened});
+	EXPECT_EQ(Trace(4, MakePush(RayCullOpaque)), (FWords{MissOne, HitValue(1, 1, 0, 0), MissOne, HitValue(1, 3, 0, 0)}));
+}
+
 TEST_P(FRecordContract, AnyHitOfOneSectionOnly)
 {
 	MakeTable(2);

@@ -1,4 +1,5 @@
 // Which look-up gives a radiance cell its place, where votes are equal.
+#include <algorithm>
 #include <cstring>
 
 #include "RadianceCellTypes.h"
@@ -79,6 +80,22 @@ TEST_F(FRadianceVoteTest, FirstOfEqualVotesWins)
 	EXPECT_EQ(GetTable().Cells[0].Place.x, 30);
 	EXPECT_EQ(GetTable().Cells[0].Vote, 0u);
 	EXPECT_EQ(GetTable().Keys[0], 0x80000005u);
+}
+
+// Notes of updates come behind those of pixels.
+TEST_F(FRadianceVoteTest, PixelsComeBeforeUpdates)
+{
+	GetTable().UpdateVotes[2] = {0, Near, {20, 0, 0}, 0, 0};
+	Vote(4, Far, 40);
+	GetTable().Cells[0].Vote = Near;
+	ASSERT_NO_FATAL_FAILURE(Run("RadianceCells/Votes.comp"));
+	ASSERT_NO_FATAL_FAILURE(Run("RadianceCells/Age.comp"));
+	EXPECT_EQ(GetTable().Cells[0].Place.x, 20) << "the greater vote, of an update";
+
+	Vote(4, Near, 41);
+	ASSERT_NO_FATAL_FAILURE(Run("RadianceCells/Votes.comp"));
+	ASSERT_NO_FATAL_FAILURE(Run("RadianceCells/Age.comp"));
+	EXPECT_EQ(GetTable().Cells[0].Place.x, 41) << "the first of equal ones";
 }
 
 // A look-up from further away does not move a cell that a nearer one has given its place, unless its hash is a multiple of 64.

@@ -50,6 +50,30 @@ TEST_F(FTransmissionPassTest, SheetsLeaveThePictureBehindThem)
 	EXPECT_LT(RenderSheets(1, MakeGlass()), 0.01) << "glass is opaque, and dark without light";
 }
 
+// Rays for glass pass the opaque sections of its mesh, and end at what the raster shows.
+TEST_F(FTransmissionPassTest, MeshesMayHaveGlassAmongOtherParts)
+{
+	FHostMaterial Tinted = MakeGlass();
+	Tinted.BaseColor = {0.2f, 0.5f, 0.9f, 1.0f};
+	for (const char* Path : {"1", "2"})
+	{
+		SetVariable("r.RT.Transmission.Path", Path);
+		FTestScene Window("Window"), Hidden("Hidden");
+		for (FTestScene* Scene : {&Window, &Hidden})
+		{
+			const int32_t Bright = Scene->AddLambert(glm::vec3(0), glm::vec3(1)), Pane = Scene->AddMaterial(Tinted);
+			const float PaneZ = Scene == &Window ? 0.0f : -20.0f; // behind the wall
+			Scene->AddNode(Scene->AddMesh({MakeWall(Bright, 4.0f, -10.0f), MakeWall(Pane, 4.0f, PaneZ)}));
+		}
+		ASSERT_TRUE(Load(std::move(Window.Scene)));
+		SetSky(glm::vec3(0));
+		EXPECT_NEAR(MeanGreen(RenderLighting(LookAtWall())), 0.5 * (1.0 - R) / (1.0 + R), 0.003) << "path " << Path;
+		ASSERT_TRUE(Load(std::move(Hidden.Scene)));
+		SetSky(glm::vec3(0));
+		EXPECT_NEAR(MeanGreen(RenderLighting(LookAtWall())), 1.0, 0.001) << "path " << Path;
+	}
+}
+
 TEST_F(FTransmissionPassTest, MoreLayersThanAllowedAreLeftOut)
 {
 	const double Sheet = (1.0 - R) / (1.0 + R);
