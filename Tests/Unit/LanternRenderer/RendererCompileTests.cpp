@@ -128,25 +128,30 @@ protected:
 		return FConsoleVariables::ToString(Value);
 	}
 	/// Starts to record on which thread shaders are compiled.
-	static void WatchCompiles()
+	void WatchCompiles()
 	{
 		Set("r.RT.Trace.File", "/nonexistent/trace.json");
 		Set("r.RT.Trace", "1");
 		FTaskTrace::Start();
-		FTraceScope Scope("The render thread");
-	}
-	static std::vector<std::string> GetCompilesOnRenderThread()
-	{
+		const char* const Mark = "The render thread";
+		{
+			FTraceScope Scope(Mark);
+		}
+		// At once: while compiles take long, frames follow each other, and the trace forgets what is old.
 		const std::vector<FTraceEvent> Events = FTaskTrace::GetEvents();
-		const auto Mark = std::find_if(
-		    Events.begin(), Events.end(), [](const FTraceEvent& Event) { return Event.Name == std::string("The render thread"); });
-		if (Mark == Events.end()) { return {"the mark of the render thread was forgotten"}; }
+		const auto Found =
+		    std::find_if(Events.begin(), Events.end(), [&](const FTraceEvent& Event) { return Event.Name == std::string(Mark); });
+		ASSERT_NE(Found, Events.end());
+		RenderThread = Found->Thread;
+	}
+	std::vector<std::string> GetCompilesOnRenderThread() const
+	{
 		std::vector<std::string> Names;
-		for (const FTraceEvent& Event : Events)
+		for (const FTraceEvent& Event : FTaskTrace::GetEvents())
 		{
 			const std::string Name = Event.Name;
 			const bool bCompile = Name.rfind("SPIR-V", 0) == 0 || Name.rfind("Compile", 0) == 0;
-			if (bCompile && Event.Thread == Mark->Thread) { Names.push_back(Name); }
+			if (bCompile && Event.Thread == RenderThread) { Names.push_back(Name); }
 		}
 		return Names;
 	}
@@ -172,6 +177,7 @@ protected:
 	std::vector<TRTRef<IRTTexture>> Textures;
 	FFrameOutputs Outputs;
 	std::vector<std::string> Tried; ///< names of pipelines
+	uint32_t RenderThread = 0;      ///< as the trace counts threads
 	uint32_t FrameIndex = 0;
 };
 
