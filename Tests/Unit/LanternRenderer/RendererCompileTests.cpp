@@ -91,6 +91,7 @@ protected:
 	{
 		const auto Step = [&] {
 			ASSERT_NO_FATAL_FAILURE(Frame());
+			if (bWatches) { ASSERT_THAT(GetCompilesOnRenderThread(), ElementsAre()); } // behind each frame: the trace forgets what is old
 			GiveWay();
 		};
 		Frame();
@@ -143,6 +144,7 @@ protected:
 		    std::find_if(Events.begin(), Events.end(), [&](const FTraceEvent& Event) { return Event.Name == std::string(Mark); });
 		ASSERT_NE(Found, Events.end());
 		RenderThread = Found->Thread;
+		bWatches = true;
 	}
 	std::vector<std::string> GetCompilesOnRenderThread() const
 	{
@@ -177,6 +179,7 @@ protected:
 	std::vector<TRTRef<IRTTexture>> Textures;
 	FFrameOutputs Outputs;
 	std::vector<std::string> Tried; ///< names of pipelines
+	bool bWatches = false;          ///< WatchCompiles has been called
 	uint32_t RenderThread = 0;      ///< as the trace counts threads
 	uint32_t FrameIndex = 0;
 };
