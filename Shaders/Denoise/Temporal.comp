@@ -95,6 +95,10 @@ void main()
 	if (!ShowsAnything(Pixel, Size)) { return; }
 #endif
 	StartTouched();
+#ifdef FINDS_EVEN
+	StartEven();
+	barrier();
+#endif
 #if CHANNELS != 1
 	if (gl_LocalInvocationIndex == 0u) { bLit = 0u; }
 #endif
@@ -102,7 +106,10 @@ void main()
 	bool bLoadedAny = LoadTile(Size);
 	barrier();
 	NoteDistances();
-#if CHANNELS == 1
+#ifdef FINDS_EVEN
+	if (IsEven()) { ClearOutliers(); }
+	else { MeasureOutliers(); }
+#elif CHANNELS == 1
 	MeasureOutliers();
 #else
 	if (IsGroupDark(bLoadedAny)) { ClearOutliers(); }
@@ -123,10 +130,15 @@ void main()
 		DrawCertain(Pixel, true);
 		return;
 	}
-#if CHANNELS == 1
-	FFrameEstimate Frame = EstimateFrame();
-#else
+	bool bMayHaveChanged = MayHaveChanged(View, uvec2(Pixel), Surface.Distance);
 	FFrameEstimate Frame;
+#ifdef FINDS_EVEN
+	bool bEven = IsEven() && !bMayHaveChanged;
+	if (bEven) { Frame = EstimateEvenFrame(); }
+	else { Frame = EstimateFrame(); }
+#elif CHANNELS == 1
+	Frame = EstimateFrame();
+#else
 	if (bLit != 0u) { Frame = EstimateFrame(); }
 	else { Frame = EstimateDarkFrame(); }
 	if (IsCertain())
@@ -137,11 +149,12 @@ void main()
 	}
 #endif
 	FHistory History = ReprojectHistory(View, uvec2(Pixel), Surface);
-#if CHANNELS != 1
+#ifdef FINDS_EVEN
+	if (bEven) { CompleteEvenFrame(History.bResampled, History.Past.Mean, Frame); }
+#elif CHANNELS != 1
 	FollowChange(Pixel, History);
 	FollowShare(Pixel, Frame, History);
 #endif
-	bool bMayHaveChanged = MayHaveChanged(View, uvec2(Pixel), Surface.Distance);
 	bool bKnown = History.Past.Frames > 0.0;
 	float Unchanged;
 	FAccumulated Now = Accumulate(Frame, History, ivec2(View.PreviousWidth, View.PreviousHeight), bMayHaveChanged, Unchanged);

@@ -8,6 +8,7 @@
 
 #include "../../Library/Rate.glsl"
 #include "../Signal.glsl"
+#include "Even.glsl"
 
 const int GroupSize = GROUP_SIZE;
 #if CHANNELS == 1 && !defined(WITH_EXTENT)
@@ -57,6 +58,7 @@ float GetRays(float Chance) { return Chance > CHANCE_OF_SEVERAL && IsFinite(Chan
 bool LoadTile(ivec2 Size)
 {
 	bool bAny = false;
+	uint Values = 0u;
 	ivec2 First = ivec2(gl_WorkGroupID.xy) * GroupSize - (WindowRadius + 1);
 	[[dont_unroll]] for (int I = int(gl_LocalInvocationIndex); I < TileSize * TileSize; I += GroupSize * GroupSize)
 	{
@@ -75,11 +77,17 @@ bool LoadTile(ivec2 Size)
 #else
 		TileSignal[I] = SanitizeSignal(Value, bValid);
 #endif
+#ifdef FINDS_EVEN
+		if (bValid) { Values |= CompareValue(TileSignal[I]); }
+#endif
 #if CHANNELS != 1
 		TileRays[I] = GetRays(Texel.w);
 		bAny = bAny || GetBrightness(TileSignal[I]) > 0.0;
 #endif
 	}
+#ifdef FINDS_EVEN
+	NoteValues(Values);
+#endif
 	return bAny;
 }
 

@@ -81,6 +81,22 @@ float LoadRays()
 }
 #endif
 
+#ifdef FINDS_EVEN
+// Of an even group. Its extent is a stand-in until CompleteEvenFrame.
+FFrameEstimate EstimateEvenFrame()
+{
+	int Own = GetTileIndex(ivec2(0));
+	FNeighborhood Neighborhood = FNeighborhood(GetEvenValue(), 0.0, 1.0); // nobody asks how many they are where nothing may have changed
+	return FFrameEstimate(TileSignal[Own], HasValue(Own), Neighborhood, 0.0, LoadRays(), MaxHalf);
+}
+
+// Past: the history's mean. Where it agrees and lies on texels, the extent says nothing.
+void CompleteEvenFrame(bool bResampled, FSignal Past, inout FFrameEstimate Frame)
+{
+	if (bResampled || Past != Frame.Value) { Frame.Extent = MeasureExtent(); }
+}
+#endif
+
 FFrameEstimate EstimateFrame()
 {
 	int Own = GetTileIndex(ivec2(0));
