@@ -114,8 +114,9 @@ float EstimateLightAt(FSceneConstants Scene, FLightData Light, FLocalPoint Point
 	return Estimate <= 0.0 && Point.Surface.bBack ? EstimateLight(Scene, Light, Point.P, -Point.Horizon) : Estimate;
 }
 
-// Two numbers in [0, 1) that stratify over the pixels of a tile and over frames. Purpose: each has numbers of its own.
-vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose)
+// Two numbers in [0, 1) that stratify over the pixels of a tile and over frames. Purpose: each has numbers of its own. More: 0, or which of
+// LOCAL_MORE_RAYS, from 1 on.
+vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose, uint More)
 {
 	uint Seed = HashPcg(View.Seed + 0x85ebca6bu * (Purpose + 1u));
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, Seed);
@@ -124,8 +125,10 @@ vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose)
 	uint Place = Sequence.Index ^ View.FrameIndex;
 	Sequence = FTileSequence(View.FrameIndex / TurnFrames ^ Place / TurnFrames, HashPcg(Sequence.Seed + TurnOf(Place)));
 #endif
+	if (More > 0u) { Sequence = FTileSequence(Sequence.Index * LOCAL_MORE_RAYS + More - 1u, HashPcg(Sequence.Seed)); }
 	return SobolOwen2(Sequence.Index, Sequence.Seed);
 }
+vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose) { return LocalNumbers(View, Pixel, Purpose, 0u); }
 
 // Whether each ray goes to a point of its own.
 bool HasExtent(FLightData Light)
@@ -133,14 +136,15 @@ bool HasExtent(FLightData Light)
 	return LightType(Light) >= LIGHT_RECTANGLE || (LightType(Light) == LIGHT_DIRECTIONAL && Light.Size.x > 0.0);
 }
 
-FLightSample SampleLocalLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, uvec2 Pixel, uint Light)
+// More: see LocalNumbers.
+FLightSample SampleLocalLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, uvec2 Pixel, uint Light, uint More)
 {
 	vec2 U = vec2(0.0);
 #ifdef LOCAL_EMISSIVE
 	if (IsTriangle(Light)) { return SampleEmitter(Scene, Light & ~LIGHT_TRIANGLE, Point.P, LocalNumbers(View, Pixel, Light)); }
 #endif
 #ifdef HAS_AREA_LIGHTS
-	U = LocalNumbers(View, Pixel, Light);
+	U = LocalNumbers(View, Pixel, Light, More);
 #endif
 	FLightData Data = FLightRef(Scene.Lights).Data[Light];
 	if (!SharesChannel(Data, Point.Channels)) { return FLightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 1.0); }

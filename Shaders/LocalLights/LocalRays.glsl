@@ -9,15 +9,15 @@
 
 const uint FirstLocalNumber = 64u; // behind those of the sun
 
-// Number: of the pixel's rays to local lights. bFiltered: what it brings counts as chance. What shines from one point does not, unless it was
+// Number: of the pixel's rays to local lights. More: see LocalNumbers. bFiltered: what it brings counts as chance. What shines from one point does not, unless it was
 // chosen of many (IsCertain in Shade.comp).
-bool SeesLight(uint Index, uint Light, uint Number, bool bFiltered)
+bool SeesLight(uint Index, uint Light, uint Number, uint More, bool bFiltered)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, LoadDepth(Push.Depth, ivec2(Pixel)));
-	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
+	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light, More);
 	if (!ReachesLight(View, Point, Sample)) { return false; }
 	DrawLeastTransmittance(Index, FirstLocalNumber + Number, bFiltered);
 	FaceDirection(Point.Surface, Sample.Direction);
@@ -34,13 +34,22 @@ bool SeesLight(uint Index, uint Light, uint Number, bool bFiltered)
 	return TraceShadowRay(Origin, Direction, Length, Push.RayFlags, LocalCasters(ShowsCharacter(Scene, Pixel))) < 0.0;
 }
 
-void TraceLocal(uint Index, uint Slot)
+// MoreSample: of Push.MoreSamples.
+void TraceLocal(uint Index, uint Slot, uint MoreSample)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uvec2 Tile = uvec2(Index % View.Width, Index / View.Width) / TILE_SIZE;
 	uint Light = FTileLightsRef(Push.TileLights).Data[TileIndex(View, Tile)].Lights[Slot];
 	bool bExtent = HasExtent(FLightRef(FSceneRef(Push.Pass.Scene).Data.Lights).Data[Light]);
-	uint Answer = (1u << (ANSWER_LOCAL_TRACED + Slot)) | (SeesLight(Index, Light, Slot, bExtent) ? 1u << (ANSWER_LOCAL_SEEN + Slot) : 0u);
+	bool bMore = Push.MoreSamples > 0u;
+	uint More = bMore ? MoreSample + 1u : 0u;
+	bool bSees = SeesLight(Index, Light, Slot + TILE_LIGHTS * More, More, bExtent);
+	if (bMore)
+	{
+		if (bSees) { atomicOr(FAnswerRef(Push.MoreAnswers).Data[Index], MoreSeenBit(Slot, MoreSample)); }
+		return;
+	}
+	uint Answer = (1u << (ANSWER_LOCAL_TRACED + Slot)) | (bSees ? 1u << (ANSWER_LOCAL_SEEN + Slot) : 0u);
 	atomicOr(FAnswerRef(Push.Answers).Data[Index], Answer);
 }
 
@@ -49,7 +58,7 @@ void TraceChosen(uint Index, uint Which)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Light = FLightChoiceRef(Push.Choices).Data[ChoiceIndex(View, Index, Which)].Light;
-	uint Answer = (1u << ChosenTracedBit(Which)) | (SeesLight(Index, Light, Which, true) ? 1u << ChosenSeenBit(Which) : 0u);
+	uint Answer = (1u << ChosenTracedBit(Which)) | (SeesLight(Index, Light, Which, 0u, true) ? 1u << ChosenSeenBit(Which) : 0u);
 	atomicOr(FAnswerRef(Push.Answers).Data[Index], Answer);
 }
 #endif

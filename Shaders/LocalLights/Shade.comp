@@ -56,10 +56,11 @@ bool IsCertain(FSceneConstants Scene, uint Light, uint Answer, uint Slot, uvec2 
 	return (Light & TILE_LIGHT_UNSHADOWED) != 0u || bOwnRay || (Neighbors.x > 0u && bAgree);
 }
 
+// More: see LocalNumbers.
 void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, uint Light,
-              float Weight)
+              uint More, float Weight)
 {
-	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
+	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light, More);
 	if (!ReachesLight(View, Point, Sample)) { return; }
 	FLobes Lobes = ReflectLight(Point, Local, Sample, Light);
 	Sum.Diffuse += Lobes.Diffuse * Weight;
@@ -91,14 +92,14 @@ void AddChosen(inout FLobes Sum, FTileLights Tile, FSceneConstants Scene, FViewC
 			continue;
 		}
 #endif
-		AddLight(Sum, Scene, View, Point, Local, Pixel, Choice.Light, Choice.Weight * Visibility * Share);
+		AddLight(Sum, Scene, View, Point, Local, Pixel, Choice.Light, 0u, Choice.Weight * Visibility * Share);
 	}
 }
 #endif
 
-// bCertain: gets whether another frame's rays would bring the same.
-FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, FLocalPoint Point,
-                  FLocalBrdf Local, out bool bCertain)
+// Answer, More: of the pixel's rays, and of its further ones. bCertain: gets whether another frame's rays would bring the same.
+FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, uint More,
+                  FLocalPoint Point, FLocalBrdf Local, out bool bCertain)
 {
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
 	bCertain = Tile.bChooses == 0u;
@@ -121,8 +122,16 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 #endif
 		bCertain = bCertain && IsCertain(Scene, Tile.Lights[I], Answer, I, Rays);
 		float Visibility = bUnshadowed ? 1.0 : SlotVisibility(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I, Rays);
-		if (Visibility <= 0.0) { continue; }
-		AddLight(Sum, Scene, View, Point, Local, Pixel, Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED, Visibility);
+		bool bMore = (More & (1u << I)) != 0u;
+		const float Share = 1.0 / float(LOCAL_MORE_RAYS + 1u); // of each ray, if the pixel has more
+		if (bMore) { Visibility *= Share; }
+		uint Light = Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED;
+		if (Visibility > 0.0) { AddLight(Sum, Scene, View, Point, Local, Pixel, Light, 0u, Visibility); }
+		for (uint J = 0u; bMore && J < LOCAL_MORE_RAYS; ++J)
+		{
+			if ((More & MoreSeenBit(I, J)) == 0u) { continue; }
+			AddLight(Sum, Scene, View, Point, Local, Pixel, Light, J + 1u, Share);
+		}
 	}
 #endif
 	return Sum;
@@ -136,12 +145,12 @@ void WriteLobes(uvec2 Pixel, FLobes Lobes, float Chance)
 	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), RoundToHalf(vec4(min(Lobes.Specular, MaxHalf), Chance))); }
 }
 
-FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, float Depth,
-                    out bool bCertain)
+FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, uint More,
+                    float Depth, out bool bCertain)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Push.Channels, Pixel, Depth);
 	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Push.BackAlbedo, Pixel, Push.ReflectedRoughness);
-	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local, bCertain);
+	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, More, Point, Local, bCertain);
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
 	return Demodulate(Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
 }
@@ -154,6 +163,7 @@ void main()
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
 	bool bInside = !IsOutsideView(View, Pixel);
 	uint Answer = bInside ? FAnswerRef(Push.Answers).Data[Pixel.y * View.Width + Pixel.x] : 0u;
+	uint More = bInside && Push.MoreAnswers != FAddress(0) ? FAnswerRef(Push.MoreAnswers).Data[Pixel.y * View.Width + Pixel.x] : 0u;
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[TileIndex(View, gl_WorkGroupID.xy)];
 	CountAnswers(Tile, View, Answer, Place);
 #ifdef GUIDED
@@ -163,7 +173,7 @@ void main()
 	float Depth = bInside ? LoadDepth(Push.Depth, ivec2(Pixel)) : 0.0;
 	FLobes Lobes = FLobes(vec3(0.0), vec3(0.0));
 	bool bCertain = Depth <= 0.0 || Tile.bChooses != TILE_CHOOSES_NOBODY, bOfOthers = false;
-	if (Depth > 0.0 && (Tile.Count != 0u || HaveChosen(Tile))) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth, bCertain); }
+	if (Depth > 0.0 && (Tile.Count != 0u || HaveChosen(Tile))) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, More, Depth, bCertain); }
 #ifdef SPARSE
 	bOfOthers = !bCertain && !HasTurn(View.FrameIndex, Place);
 #ifdef MANY_LIGHTS
@@ -173,5 +183,7 @@ void main()
 	bool bAsked = (Tile.Asking[Place >> 5u] & (1u << (Place & 31u))) != 0u;
 	bool bSeldom = Tile.bChooses != 0u && !ChoosesOfLights(Tile) && !bAsked; // of an emitter; dim ones get rays in some frames alone
 	float Chance = bOfOthers && Tile.Count != 0u ? CHANCE_OF_OTHERS : bSeldom ? CHANCE_OF_NOBODY : Tile.bChooses != 0u ? CHANCE_OF_MANY : CHANCE_SOME;
+	const uint AnySlot = (1u << TILE_LIGHTS) - 1u;
+	if (Tile.bChooses == 0u && (More & AnySlot) != 0u) { Chance = CHANCE_OF_SEVERAL + float(LOCAL_MORE_RAYS + 1u); }
 	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? CHANCE_NONE : Chance); }
 }

@@ -1,9 +1,14 @@
 // Requests of a tile's pixels for rays to its lights: room for all of them is reserved at once.
+// REQUEST_THREADS: threads that trace a request; not defined: one.
 #ifndef LANTERN_TILE_REQUESTS_GLSL
 #define LANTERN_TILE_REQUESTS_GLSL
 
 #include "../Rays/RayQueue.glsl"
 #include "LocalPoint.glsl"
+
+#ifndef REQUEST_THREADS
+#define REQUEST_THREADS 1u
+#endif
 
 // Returns the pixels that ask for a ray in a slot, 32 of them. The slots behind the others are for what pixels chose.
 uint AskingPixels(FTileLights Tile, uint Slot, uint Word, uint FrameIndex)
@@ -33,7 +38,7 @@ void Reserve(uint Slots, FAddress CountersAddress, uint Capacity)
 	FRayQueueCountersRef Counters = FRayQueueCountersRef(CountersAddress);
 	FirstRequest = SegmentEnd(Counters.Data, RAY_SEGMENT_LOCAL - 1u, Capacity);
 	FirstRequest += atomicAdd(Counters.Data.Segments[RAY_SEGMENT_LOCAL].Wanted, Count);
-	GrowLaunch(CountersAddress, min(FirstRequest + Count, Capacity));
+	GrowLaunch(CountersAddress, min(FirstRequest + Count, Capacity) * REQUEST_THREADS);
 }
 
 // Writes the pixel's requests, light by light: rays to one light then start close to each other. ChosenSlot: see AskingPixels; one that

@@ -463,7 +463,7 @@ void ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		}
 		if (Chance <= 0.0) { continue; }
 #endif
-		FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
+		FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light, 0u);
 		if (!ReachesLight(View, Point, Sample)) { continue; }
 		FLobes Lobes = ReflectLight(Point, Local, Sample, Light);
 		// Times the inverse of the density with which the light came here, over all candidates.

@@ -42,6 +42,9 @@ void GrowLaunch(FAddress Address, uint End)
 	atomicMax(Counters.Data.Launch[0], End);
 }
 
+// Sample: of LOCAL_MORE_RAYS.
+uint MoreSeenBit(uint Slot, uint Sample) { return 1u << (ANSWER_MORE_SEEN + Slot * LOCAL_MORE_RAYS + Sample); }
+
 uint PackSunAnswer(uint Seen, uint Unseen) { return (Seen << ANSWER_SUN_SEEN) | (Unseen << ANSWER_SUN_UNSEEN); }
 uint SunSeen(uint Answer) { return (Answer >> ANSWER_SUN_SEEN) & ANSWER_SUN_MASK; }
 uint SunUnseen(uint Answer) { return (Answer >> ANSWER_SUN_UNSEEN) & ANSWER_SUN_MASK; }

@@ -117,7 +117,7 @@ void TraceRequest(uint Number)
 	case RAY_KIND_SUN: TraceSun(RayIndex(Request), RaySlot(Request) == RAY_SLOT_SUN_LIT ? Push.LitMask : Push.InstanceMask, MoreSample); break;
 #endif
 #ifdef LOCAL_RAYS
-	case RAY_KIND_LOCAL: TraceLocal(RayIndex(Request), RaySlot(Request)); break;
+	case RAY_KIND_LOCAL: TraceLocal(RayIndex(Request), RaySlot(Request), MoreSample); break;
 #endif
 #ifdef MANY_LIGHTS
 	case RAY_KIND_CHOSEN: TraceChosen(RayIndex(Request), RaySlot(Request)); break;

@@ -157,8 +157,9 @@ struct FLocalShadeConstants
 	uint Channels; // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 	uint BackAlbedo; // sampled index, or NO_TEXTURE
 	uint Pad;
+	FAddress MoreAnswers; // uint[pixels], see LOCAL_MORE_RAYS; 0: there are none
 };
-LANTERN_ASSERT_SIZE(FLocalShadeConstants, 96);
+LANTERN_ASSERT_SIZE(FLocalShadeConstants, 104);
 
 // Constants of LocalLights/LampView.comp.
 struct FLampViewConstants

@@ -55,6 +55,11 @@ LANTERN_ASSERT_SIZE(FRayQueueCounters, 40);
 #define ANSWER_SUN_UNSEEN 25u // lowest of 7 bits: samples that do not; without an answer, either number is 0
 #define ANSWER_SUN_MASK 0x7fu
 
+// Further rays of a pixel to a light in a slot, each in a thread of its own. Their answers are a word for each pixel: the lowest 8 bits
+// say which slots have some, and behind them are LOCAL_MORE_RAYS bits for each slot, of the rays that see the light.
+#define LOCAL_MORE_RAYS 3u
+#define ANSWER_MORE_SEEN 8u // lowest bit of the first slot
+
 struct FShadowQueueConstants
 {
 	FPassConstants Pass;
@@ -79,10 +84,11 @@ struct FShadowQueueConstants
 	uint Classes;         // sampled index, or NO_TEXTURE: FGBuffer::Classes, for HAS_CHARACTERS
 	uint ClassesOffset;   // of the view in Classes, pixels: x | y << 16
 	// Sun samples of each request, each in a thread of its own, which come on top of earlier answers. 0: a thread traces SamplesPerPixel.
-	uint MoreSamples;
+	uint MoreSamples; // or LOCAL_MORE_RAYS, and requests are for a light in a slot
 	uint Pad;
+	FAddress MoreAnswers; // uint[pixels]: see LOCAL_MORE_RAYS; 0: MoreSamples are of the sun
 };
-LANTERN_ASSERT_SIZE(FShadowQueueConstants, 120);
+LANTERN_ASSERT_SIZE(FShadowQueueConstants, 128);
 
 LANTERN_SHARED_END
 

@@ -16,7 +16,7 @@ const float WideEnough = 12.0;             // pixels: a penumbra that histories 
 const float LeastCoverage = 0.5;          // of a history
 const float LeastShare = 0.03;            // of the sun, that a history has seen, or not seen, in a penumbra
 
-shared uint States[RingSize * RingSize], Wanted[2], bTouched;
+shared uint States[RingSize * RingSize], Wanted[2], bTouched, TileStates;
 
 // The answers of a pixel that faces the sun.
 uint LoadState(FViewConstants View, ivec2 Pixel)
@@ -85,7 +85,8 @@ bool NeedsMore(FViewConstants View, ivec2 Pixel, bool bBorder)
 	FSurface Surface = LoadSurface(Push.Surface, Pixel);
 	vec4 Motion = texelFetch(Textures[Push.Motion], Pixel, 0);
 	FReprojection R = LoadReprojection(Push.Reprojection, Pixel);
-	if (R.Coverage < LeastCoverage || MovedItself(View, Surface.Distance, uvec2(Pixel), Motion)) { return bBorder; }
+	if (MovedItself(View, Surface.Distance, uvec2(Pixel), Motion)) { return bBorder; }
+	if (R.Coverage < LeastCoverage) { return bBorder || TileStates == (SeesSun | SeesNone); }
 	// A history of the very same point needs no interpolation.
 	if (!any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)))) { return false; }
 	if (!bBorder && !WasPenumbra(R)) { return false; }
@@ -123,9 +124,12 @@ void main()
 	{
 		Wanted[0] = Wanted[1] = 0u;
 		bTouched = 0u;
+		TileStates = 0u;
 		StartBounds();
 	}
 	LoadStates(View, Place);
+	barrier();
+	for (uint I = Place; I < uint(RingSize * RingSize); I += TILE_PIXELS) { atomicOr(TileStates, States[I]); }
 	barrier();
 	bool bAsked = IsMarked(Tile.SunRays, Place) && States[(At.y + 1u) * RingSize + At.x + 1u] != 0u;
 	FindTouched(View, bAsked, ivec2(Pixel));

@@ -12,6 +12,7 @@
 #include "LocalLights/LampView.h"
 #include "LocalLights/LightMask.h"
 #include "LocalLights/LocalRequests.h"
+#include "LocalLights/MoreLocalRays.h"
 #include "LocalLights/SecondRays.h"
 #include "Reflections/Reflections.h"
 #include "SignalPasses.h"
@@ -53,6 +54,14 @@ bool AreLampsChosen(const FSceneFacts& Facts) { return Facts.Lights > GetExact(F
 /// Beside a light mask nobody knows which lights a pixel chose of before.
 bool AreChangesFollowed(const FSceneFacts& Facts) { return (AreLampsChosen(Facts) || HasEmitters(Facts)) && !Facts.bLightMask; }
 
+bool IsMoreWanted(const FSceneFacts& Facts) { return Denoise.IsEnabled() && WantsMoreLocalRays(Facts) && HasLocalRays(Facts); }
+
+/// The lobe whose history says which pixels have more rays. Either has one where there are two.
+ESignal FindMoreLobe(const FSignalRequests& Requests)
+{
+	return IsMade(ESignal::LocalDiffuse, Requests) ? ESignal::LocalDiffuse : ESignal::LocalSpecular;
+}
+
 FShaderSource MakeShadeSource(const FSceneFacts& Facts, uint32_t Exact)
 {
 	return MakeComputeSource("LocalLights/Shade.comp", MakeChoiceDefines(Facts, Exact));
@@ -79,7 +88,8 @@ FLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const FShad
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
-		for (const FGraphBuffer Buffer : {Inputs.Queue.Answers, Inputs.Traced.TileLights, Inputs.Traced.Choices, Inputs.Traced.Lit})
+		for (const FGraphBuffer Buffer :
+		    {Inputs.Queue.Answers, Inputs.Traced.TileLights, Inputs.Traced.Choices, Inputs.Traced.Lit, Inputs.Traced.MoreAnswers})
 		{
 			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
 		}
@@ -107,6 +117,7 @@ FLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const FShad
 			C.OutDiffuse = GetStorageIndex(Pass, Lobes.Diffuse);
 			C.OutSpecular = GetStorageIndex(Pass, Lobes.Specular);
 			C.ReflectedRoughness = Reflected;
+			C.MoreAnswers = GetAddress(Pass, Inputs.Traced.MoreAnswers);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -139,6 +150,7 @@ FGraphTexture AddTracedLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESi
 	FDenoiseInputs Inputs;
 	Inputs.Name = GetSignalInfo(Signal).Pass;
 	Inputs.Signal = Lobe;
+	if (Signal == FindMoreLobe(Context.Signals)) { Inputs.History = Context.ShadowRays->LocalHistory; }
 	// A highlight moves with the camera, and diffuse light does not.
 	const bool bLampsAlone = !HasEmitters(Context.Facts); // nobody counts what becomes of surfaces
 	const bool bStays = Signal == ESignal::LocalDiffuse && bLampsAlone && CVarKnownChanges.GetOnRenderThread() && !Context.Facts.bLightMask;
@@ -212,6 +224,7 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	ListLocalRequestShaders(Query.Facts, Exact, Rays.Compute);
 	ListLightMaskShaders(Query.Facts, Rays.Compute);
 	ListLampViewShaders(Rays.Compute);
+	if (IsMoreWanted(Query.Facts)) { ListMoreLocalRaysShaders(MakeLocalDefines(Query.Facts, Exact), Rays.Compute); }
 	if (IsHalfWanted(Query.Facts)) { ListHalfFrameShaders(Query.Facts, IsPair(Query.Requests), Rays.Compute); }
 	if (Denoise.IsEnabled() && AreChangesFollowed(Query.Facts))
 	{
@@ -231,7 +244,8 @@ bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowR
 	if (HasEmitters(Context.Facts) && !Dispatch.Has("LOCAL_EMISSIVE")) { return false; }
 	if (!AreLocalRequestsReady(Context, Exact) || !IsLightMaskReady(Context)) { return false; }
 	if (!Context.Facts.bMaskAlone && !RequireCompute(Context, MakeShadeSource(Context.Facts, Exact))) { return false; }
-	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany};
+	const char* const Filter = IsMoreWanted(Context.Facts) ? GetSignalInfo(FindMoreLobe(Context.Signals)).Pass : nullptr;
+	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany, Filter};
 	return true;
 }
 

@@ -10,6 +10,7 @@
 #include "LocalLights/Emitters.h"
 #include "LocalLights/LightMask.h"
 #include "LocalLights/LightRegions.h"
+#include "LocalLights/MoreLocalRays.h"
 #include "LocalLights/SecondRays.h"
 #include "Rays/ThreadList.h"
 #include "TwoFrames.h"
@@ -365,12 +366,18 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	InOut.Traced.LocalPerPixel = Rays.PerPixel;
 }
 
-void AddSecondLocalRays(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays)
+void AddFurtherLocalRays(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, FShadowRays& InOut, const FLocalRays& Rays)
 {
-	if (Rays.PerPixel == 0 || !WantsSecondRays()) { return; }
-	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Rays.Exact)));
-	if (Pipeline) { AddSecondRays(Context, GBuffer, Dispatch, Traced.Queue, Traced.Traced, Pipeline); }
+	if (Rays.PerPixel == 0) { return; }
+	const FShaderDefines Defines = MakeLocalDefines(Context.Facts, Rays.Exact);
+	if (WantsSecondRays())
+	{
+		IRTPipeline* const Pipeline = RequireCompute(Context, MakeSecondRaysSource(Defines));
+		if (Pipeline) { AddSecondRays(Context, GBuffer, Dispatch, InOut.Queue, InOut.Traced, Pipeline); }
+	}
+	if (!Rays.MoreFilterName) { return; }
+	AddMoreLocalRays(Context, GBuffer, Dispatch, InOut.Queue, InOut.Traced, Defines, Rays.MoreFilterName, InOut.LocalHistory);
 }
 
 } // namespace Lantern

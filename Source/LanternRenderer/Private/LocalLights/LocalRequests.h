@@ -32,9 +32,9 @@ bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact);
 /// choose, BaseColor and Material of the G-buffer. After AreLocalRequestsReady. InOut: gets the buffers that the rays and the shading read. Without tiles of the sun, the queue starts here.
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays);
 
-/// Adds the passes of rays that are asked for where those of AddLocalRequests, which have been traced by then, leave a doubt. They have
-/// none at full rate. Dispatch: of the queue's shader.
-void AddSecondLocalRays(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays);
+/// Adds the passes of rays that are asked for where those of AddLocalRequests, which have been traced by then, leave a doubt: second rays
+/// below the full rate, and more rays where no history helps. Dispatch: of the queue's shader. InOut: gets answers and LocalHistory.
+void AddFurtherLocalRays(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, FShadowRays& InOut, const FLocalRays& Rays);
 
 } // namespace Lantern

@@ -53,6 +53,7 @@ FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Fra
 	C.LitMask = Sun.LitMask;
 	C.SunOneMinusCos = GetSunOneMinusCos(Sun);
 	C.MoreSamples = Rays.MoreSamples;
+	C.MoreAnswers = GetAddress(Pass, Rays.MoreAnswers);
 	return C;
 }
 
@@ -191,6 +192,11 @@ void AddShadowRaysPass(
 		Builder.Read(Queue.Answers, ERTAccess::StorageRead);
 		Builder.Write(Queue.Answers, ERTAccess::StorageWrite);
 		if (Queue.SunWidths.IsValid()) { Builder.Write(Queue.SunWidths, ERTAccess::StorageWrite); }
+		if (Rays.MoreAnswers.IsValid())
+		{
+			Builder.Read(Rays.MoreAnswers, ERTAccess::StorageRead);
+			Builder.Write(Rays.MoreAnswers, ERTAccess::StorageWrite);
+		}
 		for (const FGraphBuffer Buffer : {Rays.TileLights, Rays.Choices})
 		{
 			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }

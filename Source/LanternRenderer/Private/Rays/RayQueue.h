@@ -77,6 +77,7 @@ struct FQueuedRays
 	FHistoryTexture MaskLights; ///< which lights the slots of tiles have (FindMaskLights); Current invalid: nobody reads the light mask
 	uint32_t LocalPerPixel = 0;
 	uint32_t MoreSamples = 0; ///< see FShadowQueueConstants
+	FGraphBuffer MoreAnswers; ///< uint[Width · Height], see LOCAL_MORE_RAYS; invalid: MoreSamples are of the sun, or nobody has asked
 };
 /// Adds the pass that traces what is in the queue. Dispatch: of Shaders/Rays/ShadowQueue.
 void AddShadowRaysPass(

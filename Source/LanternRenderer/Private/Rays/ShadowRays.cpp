@@ -65,7 +65,7 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	{
 		AddSettledRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Settled);
 	}
-	if (Rays.Traced.TileLights.IsValid()) { AddSecondLocalRays(Context, GBuffer, Asked->Dispatch, Rays, *Asked->Wishes.Local); }
+	if (Rays.Traced.TileLights.IsValid()) { AddFurtherLocalRays(Context, GBuffer, Asked->Dispatch, Rays, *Asked->Wishes.Local); }
 	const FShadowRayWishes& Wishes = Asked->Wishes;
 	if (Wishes.MoreSunRays > 0 && Rays.Queue.SunWidths.IsValid())
 	{

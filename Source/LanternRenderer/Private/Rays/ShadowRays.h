@@ -17,6 +17,7 @@ struct FLocalRays
 	uint32_t Exact = 0;    ///< most lights of a tile that all get rays, 1 to 8
 	uint32_t PerPixel = 0; ///< most rays of a pixel
 	bool bMany = false;    ///< tiles may have more; each of their pixels chooses one
+	const char* MoreFilterName = nullptr; ///< FDenoiseInputs::Name of the lobe whose history says who gets more rays; null: nobody does
 };
 
 /// What signals ask for in one frame.
@@ -39,6 +40,7 @@ struct FShadowRays
 	FSunRays Sun;
 	FShadowChanges Changes;     ///< of the sun's shadows, if they are filtered
 	FHistoryTexture SunHistory; ///< FDenoiseInputs::History of sun shadows, if passes before the filter read it
+	FHistoryTexture LocalHistory; ///< and of the lobe of FLocalRays::MoreFilterName
 	FSettledTiles Settled;
 	FHostShadowMap Map; ///< what it holds is left to it
 	FQueuedRays Traced;

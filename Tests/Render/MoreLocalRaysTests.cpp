@@ -1,0 +1,166 @@
+// More rays to lamps with an extent where no history helps (r.RT.Lights.MoreRays): noise, mean, and who has them.
+#include <algorithm>
+#include <cmath>
+
+#include "LanternImage/ImageStatistics.h"
+#include "SignalFixture.h"
+
+namespace Lantern
+{
+
+namespace
+{
+constexpr uint32_t Width = 64, Height = 48;
+
+class FMoreLocalRaysTest : public FSignalTest
+{
+protected:
+	void SetUp() override
+	{
+		FSignalTest::SetUp();
+		for (const auto& [Name, Value] : {std::pair("r.RT.Rays.Count", "1"), {"r.RT.Shadow", "0"}, {"r.RT.AO", "0"},
+		         {"r.RT.Lights.FilterPasses", "0"}, {"r.RT.Lights.HalfResolution", "0"}})
+		{
+			SetVariable(Name, Value);
+		}
+		FTestScene Scene("more_rays");
+		const int32_t Paint = Scene.AddLambert(glm::vec3(0.5f)), Both = Scene.AddLambert(glm::vec3(0.5f), glm::vec3(0), true);
+		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Paint, 8.0f)}));
+		Scene.AddNode(Scene.AddMesh({{Both, {{-0.6f, 0.3f, 0}, {0.6f, 0.3f, 0}, {0.6f, 1.0f, 0}, {-0.6f, 1.0f, 0}}}}));
+		ASSERT_TRUE(Load(std::move(Scene.Scene)));
+		SetSun(0.0, 0.0f);
+		SetSky(glm::vec3(0));
+	}
+	void AddLamp(double X, float Radius)
+	{
+		FSceneLight Light;
+		Light.Position = {X, 1.6, 1.2};
+		Light.Color = glm::vec3(4);
+		if (Radius > 0.0f)
+		{
+			Light.Type = LIGHT_SPHERE;
+			Light.Size = {Radius, 0};
+			Light.Color *= 1.0f / (3.14159265f * Radius * Radius);
+		}
+		GetScene().GetScene().AddLight(Light);
+	}
+	struct FPlayed
+	{
+		std::vector<FImage> Frames;
+		std::vector<double> Rays; ///< per pixel, of each frame
+	};
+	/// bCut: no frame knows of those before it. Step: by which the camera moves in a frame, metres.
+	FPlayed Play(const char* MoreRays, uint32_t Count, bool bCut, double Step = 0.0)
+	{
+		SetVariable("r.RT.Lights.MoreRays", MoreRays);
+		FRenderer& Renderer = GetEngine().GetRenderer();
+		FPlayed Played;
+		GetEngine().SetFrameIndex(0);
+		for (uint32_t Frame = 0; Frame < Count; ++Frame)
+		{
+			EXPECT_OK(Renderer.WaitForAll());
+			const uint64_t Before = Renderer.GetRayCounts().Total;
+			FView View = LookAt({Step * Frame, 2.4, 2.6}, {Step * Frame, 0, -0.6}, 0.9f, Width, Height);
+			View.bCut = bCut || Frame == 0;
+			View.DeltaSeconds = 1.0f / 60.0f;
+			FFrameCapture Capture;
+			Capture.Signals.Add(ESignal::LocalDiffuse);
+			FCapturedFrame Captured;
+			EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Captured));
+			Played.Frames.push_back(Captured.Get(ESignal::LocalDiffuse));
+			EXPECT_OK(Renderer.WaitForAll());
+			Played.Rays.push_back(double(Renderer.GetRayCounts().Total - Before) / (double(Width) * Height));
+		}
+		return Played;
+	}
+};
+
+struct FSpread
+{
+	double Mean = 0.0, MeanError = 0.0;
+	double Variance = 0.0; ///< between frames, sum over pixels
+};
+
+FSpread MeasureSpread(const std::vector<FImage>& Frames)
+{
+	FSpread Out;
+	const double N = double(Frames.size());
+	double MeanVariance = 0.0;
+	for (uint32_t Y = 0; Y < Height; ++Y)
+	{
+		for (uint32_t X = 0; X < Width; ++X)
+		{
+			double Sum = 0.0, Squares = 0.0;
+			for (const FImage& Frame : Frames)
+			{
+				const double Value = GetLuminance(Frame, X, Y);
+				Sum += Value;
+				Squares += Value * Value;
+			}
+			const double Variance = std::max(0.0, (Squares - Sum * Sum / N) / (N - 1.0));
+			Out.Mean += Sum / N;
+			Out.Variance += Variance;
+			MeanVariance += Variance / N;
+		}
+	}
+	Out.MeanError = std::sqrt(MeanVariance);
+	return Out;
+}
+
+TEST_F(FMoreLocalRaysTest, PenumbraeWithoutAHistoryHaveLessNoise)
+{
+	AddLamp(-0.3, 0.25f);
+	AddLamp(0.4, 0.15f);
+	const FPlayed One = Play("0", 64, true), More = Play("1", 64, true);
+	const FSpread Before = MeasureSpread(One.Frames), Now = MeasureSpread(More.Frames);
+	ASSERT_GT(Before.Variance, 0.0);
+	std::printf("variance %.3f of one ray's, mean %.5f of it, rays %.3f and %.3f\n", Now.Variance / Before.Variance, Now.Mean / Before.Mean,
+	    One.Rays[8], More.Rays[8]);
+	// Four rays have a quarter of the variance, and four equal ones all of it. Pixels whose neighbours agree by chance keep theirs.
+	EXPECT_LT(Now.Variance, 0.65 * Before.Variance);
+	// Tiles stratify their pixels, so that errors of means are smaller than those of chance.
+	EXPECT_NEAR(Now.Mean, Before.Mean, 3.0 * std::hypot(Before.MeanError, Now.MeanError));
+	EXPECT_GT(More.Rays[8], One.Rays[8]);
+	EXPECT_LT(More.Rays[8], 2.0 * One.Rays[8]); // lit and dark pixels have none
+}
+
+TEST_F(FMoreLocalRaysTest, AHistoryEndsThem)
+{
+	AddLamp(-0.3, 0.25f);
+	const FPlayed One = Play("0", 24, false), More = Play("1", 24, false);
+	EXPECT_GT(More.Rays[0], 1.05 * One.Rays[0]);
+	EXPECT_GT(More.Rays[1], 1.05 * One.Rays[1]); // one frame of four rays is no history yet
+	EXPECT_EQ(More.Rays[23], One.Rays[23]);
+}
+
+TEST_F(FMoreLocalRaysTest, WhatComesIntoViewHasThem)
+{
+	AddLamp(-0.3, 0.25f);
+	const FPlayed One = Play("0", 24, false, 0.02), More = Play("1", 24, false, 0.02);
+	EXPECT_GT(More.Rays[23], One.Rays[23]);
+	EXPECT_LT(More.Rays[23], 1.2 * One.Rays[23]);
+}
+
+TEST_F(FMoreLocalRaysTest, PointsHaveNone)
+{
+	AddLamp(-0.3, 0.0f);
+	const FPlayed One = Play("0", 3, true), More = Play("1", 3, true);
+	EXPECT_EQ(More.Rays[2], One.Rays[2]);
+	EXPECT_EQ(More.Frames[2].Pixels, One.Frames[2].Pixels);
+}
+
+TEST_F(FMoreLocalRaysTest, PathsAgree)
+{
+	AddLamp(-0.3, 0.25f);
+	Play("1", 16, false); // for a while after a lamp has come, the filter looks for changes
+	SetVariable("r.RT.Shadow.Path", "1");
+	const FPlayed Pipeline = Play("1", 6, false, 0.02);
+	SetVariable("r.RT.Shadow.Path", "2");
+	const FPlayed Query = Play("1", 6, false, 0.02);
+	EXPECT_GT(Query.Rays[5], 0.0);
+	EXPECT_EQ(Pipeline.Rays, Query.Rays);
+	EXPECT_EQ(Pipeline.Frames[5].Pixels, Query.Frames[5].Pixels);
+}
+
+} // namespace
+} // namespace Lantern
