@@ -1,19 +1,20 @@
-// Asks for more rays to lamps with an extent where one ray cannot tell and no history helps: in penumbrae that have just come into view,
-// or whose history has been given up. A penumbra shows by rays of the neighbourhood that differ.
+// Asks for more rays to lamps with an extent where one ray cannot tell and no history helps: in tiles that a penumbra may cross, for pixels
+// that have just come into view, or whose history has been given up. Tiles decide, and not a pixel's neighbours: whether few rays differ
+// depends on what each has seen. Rays of the rare kind would ask for others more often, and the mean would have a bias.
 #version 460
 #include "../Shared/MoreLocalRaysTypes.h"
 #include "../Library/History.glsl"
+#include "../Tiles/Tile.glsl"
 #define REQUEST_THREADS LOCAL_MORE_RAYS
 #include "TileRequests.glsl"
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FMoreLocalRaysConstants Push; };
 
-#include "Neighbors.glsl"
-
 const float EnoughFrames = 16.0; // of one ray each, that a history is relied on from
+const uint AllSlots = (1u << TILE_LIGHTS) - 1u;
 
-shared uint bAnyNeeds;
+shared uint SeenSlots, UnseenSlots; // of which some pixel of the tile has such an answer
 
 // Returns how many frames of one ray the pixel's history is worth.
 float LoadFrames(ivec2 Pixel)
@@ -24,22 +25,22 @@ float LoadFrames(ivec2 Pixel)
 	return Frames > 0.0 ? Frames : 0.0; // not a number is no history
 }
 
-// Marks the slots whose lights the pixel wants more rays to, and returns a bit for each. Answer: the pixel's own. Each request is for a ray
-// that has had room in the queue, so that all have.
-uint MarkBorders(FSceneConstants Scene, FViewConstants View, FTileLights Tile, uint Place, uint Answer)
+// Returns a bit for each slot that some rays of the tile see and others do not. Lamps without an extent have no penumbra.
+uint FindMixedSlots(FSceneConstants Scene, FTileLights Tile)
 {
-	ivec2 InTile = ivec2(TilePixel(uvec2(0u), Place));
-	uint Neighbors = FindNeighbors(View, InTile, false), Found = 0u;
-	for (uint Slot = 0u; Slot < Tile.Count; ++Slot)
+	uint Mixed = SeenSlots & UnseenSlots;
+	for (uint Slots = Mixed; Slots != 0u; Slots &= Slots - 1u)
 	{
-		uvec2 Own = uvec2(Answer >> (ANSWER_LOCAL_TRACED + Slot), Answer >> (ANSWER_LOCAL_SEEN + Slot)) & 1u;
-		if (Own.x == 0u || !HasExtent(FLightRef(Scene.Lights).Data[Tile.Lights[Slot]])) { continue; }
-		uvec2 Rays = CountNeighborRays(InTile, Neighbors, Slot) + Own;
-		if (Rays.y == 0u || Rays.y == Rays.x) { continue; }
-		atomicOr(Asking[2u * Slot + (Place >> 5u)], 1u << (Place & 31u));
-		Found |= 1u << Slot;
+		uint Slot = uint(findLSB(Slots));
+		if (!HasExtent(FLightRef(Scene.Lights).Data[Tile.Lights[Slot]])) { Mixed &= ~(1u << Slot); }
 	}
-	return Found;
+	return Mixed;
+}
+
+// Marks slots whose lights the pixel wants more rays to.
+void Ask(uint Slots, uint Place)
+{
+	for (; Slots != 0u; Slots &= Slots - 1u) { atomicOr(Asking[2u * uint(findLSB(Slots)) + (Place >> 5u)], 1u << (Place & 31u)); }
 }
 
 void main()
@@ -49,24 +50,21 @@ void main()
 	uint Place = gl_LocalInvocationIndex;
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
 	uint PixelIndex = Pixel.y * View.Width + Pixel.x;
-	bool bInside = !IsOutsideView(View, Pixel), bFew = Tile.Count > 0u && Tile.Count <= TILE_LIGHTS;
-	uint Answer = bInside && bFew ? FAnswerRef(Push.Answers).Data[PixelIndex] : 0u;
-	const uint AnyTraced = ((1u << TILE_LIGHTS) - 1u) << ANSWER_LOCAL_TRACED;
-	bool bNeeds = (Answer & AnyTraced) != 0u && LoadFrames(ivec2(Pixel)) < EnoughFrames;
-	if (Place == 0u) { bAnyNeeds = 0u; }
+	bool bInside = !IsOutsideView(View, Pixel);
+	uint Answer = bInside && Tile.Count <= TILE_LIGHTS ? FAnswerRef(Push.Answers).Data[PixelIndex] : 0u;
+	uint Traced = (Answer >> ANSWER_LOCAL_TRACED) & AllSlots, Seen = (Answer >> ANSWER_LOCAL_SEEN) & Traced;
+	if (Place == 0u) { SeenSlots = UnseenSlots = 0u; }
 	if (Place < 2u * TILE_LIGHTS) { Asking[Place] = 0u; }
 	barrier();
-	if (bNeeds) { bAnyNeeds = 1u; }
+	if (Seen != 0u) { atomicOr(SeenSlots, Seen); }
+	if (Seen != Traced) { atomicOr(UnseenSlots, Seen ^ Traced); }
 	barrier();
-	uint Slots = 0u;
-	if (bAnyNeeds != 0u)
-	{
-		LoadNeighbors(View, Tile, Place);
-		barrier();
-		if (bNeeds) { Slots = MarkBorders(FSceneRef(Push.Pass.Scene).Data, View, Tile, Place, Answer); }
-	}
+	uint Mixed = FindMixedSlots(FSceneRef(Push.Pass.Scene).Data, Tile), Slots = 0u;
+	// Each light's first ray has had room in the queue, so that all further ones have.
+	if ((Mixed & Traced) != 0u && LoadFrames(ivec2(Pixel)) < EnoughFrames) { Slots = Mixed & Traced; }
 	if (bInside) { FAnswerRef(Push.MoreAnswers).Data[PixelIndex] = Slots; }
-	if (bAnyNeeds == 0u) { return; }
+	if (Mixed == 0u) { return; }
+	Ask(Slots, Place);
 	barrier();
 	if (Place == 0u) { Reserve(Tile.Count, Push.Counters, Push.Capacity); }
 	barrier();

@@ -60,7 +60,10 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FMoreRaysPa
 
 bool WantsMoreLocalRays(const FSceneFacts& Facts) { return CVarMoreRays.GetOnRenderThread() && Facts.bAreaLights && !Facts.bLightMask; }
 
-FShaderSource MakeMoreLocalRaysSource(FShaderDefines Defines) { return MakeComputeSource("LocalLights/MoreLocalRays.comp", std::move(Defines)); }
+FShaderSource MakeMoreLocalRaysSource(FShaderDefines Defines)
+{
+	return MakeComputeSource("LocalLights/MoreLocalRays.comp", std::move(Defines));
+}
 
 void ListMoreLocalRaysShaders(FShaderDefines Defines, std::vector<FShaderSource>& Out)
 {

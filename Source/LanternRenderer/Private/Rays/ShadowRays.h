@@ -14,9 +14,9 @@ namespace Lantern
 /// Rays towards lights other than the sun.
 struct FLocalRays
 {
-	uint32_t Exact = 0;    ///< most lights of a tile that all get rays, 1 to 8
-	uint32_t PerPixel = 0; ///< most rays of a pixel
-	bool bMany = false;    ///< tiles may have more; each of their pixels chooses one
+	uint32_t Exact = 0;                   ///< most lights of a tile that all get rays, 1 to 8
+	uint32_t PerPixel = 0;                ///< most rays of a pixel
+	bool bMany = false;                   ///< tiles may have more; each of their pixels chooses one
 	const char* MoreFilterName = nullptr; ///< FDenoiseInputs::Name of the lobe whose history says who gets more rays; null: nobody does
 };
 
@@ -38,8 +38,8 @@ struct FShadowRays
 	FRayQueue Queue;
 	FGraphBuffer Tiles; ///< FTile[]; invalid: nobody asks for the sun
 	FSunRays Sun;
-	FShadowChanges Changes;     ///< of the sun's shadows, if they are filtered
-	FHistoryTexture SunHistory; ///< FDenoiseInputs::History of sun shadows, if passes before the filter read it
+	FShadowChanges Changes;       ///< of the sun's shadows, if they are filtered
+	FHistoryTexture SunHistory;   ///< FDenoiseInputs::History of sun shadows, if passes before the filter read it
 	FHistoryTexture LocalHistory; ///< and of the lobe of FLocalRays::MoreFilterName
 	FSettledTiles Settled;
 	FHostShadowMap Map; ///< what it holds is left to it
