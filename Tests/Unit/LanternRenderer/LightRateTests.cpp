@@ -71,6 +71,32 @@ TEST_F(FLightRateTest, WithoutLampsThereAreNoSecondRays)
 	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(StartsWith("LocalLights/SecondRays.comp"))));
 }
 
+// Lamps without an extent have no penumbrae, and without a filter nobody knows who has a history.
+TEST_F(FLightRateTest, MoreRaysAreForPenumbraeOfFilteredLamps)
+{
+	ASSERT_TRUE(Load({}));
+	const FLightId Lamp = AddLamp(0, 1.0f);
+	Render();
+	EXPECT_TRUE(HasPass("ShadowRays"));
+	EXPECT_FALSE(HasPass("ShadowMoreAsk"));
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(StartsWith("LocalLights/MoreLocalRays.comp"))));
+	FSceneLight Sphere = GetWorld().GetLights().Get(Lamp);
+	Sphere.Type = LIGHT_SPHERE;
+	Sphere.Size = {0.1, 0};
+	GetWorld().SetLight(Lamp, Sphere);
+	const auto HasMore = [&] { return HasPass("ShadowMoreAsk") && HasPass("ShadowMoreRays"); };
+	for (int Frame = 0; Frame < 4 && !HasMore(); ++Frame) { Render(); } // shaders are compiled beside the frames
+	EXPECT_TRUE(HasMore());
+	for (const char* const Name : {"r.RT.Lights.MoreRays", "r.RT.Lights.Denoise"})
+	{
+		Set(Name, "0");
+		Render();
+		EXPECT_TRUE(HasPass("ShadowRays")) << Name;
+		EXPECT_FALSE(HasPass("ShadowMoreAsk")) << Name;
+		Set(Name, "1");
+	}
+}
+
 // Only the first frame, which notes what all are, and frames in which one has changed.
 TEST_F(FLightRateTest, LampsThatChangeAreFollowed)
 {

@@ -59,10 +59,10 @@ FStabilityFault MakeThinWallFault(const FMethod& Method)
 	return MakeFault({}, "a slit in the roof");
 }
 
-/// Nothing is validated: what was there is taken for what is there, for a minute.
+/// Nothing is validated: what was there is taken for what is there, for a minute, and no rays make up for it.
 FStabilityFault MakeUncoveringFault(const FMethod&)
 {
-	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Validate", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"},
+	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Validate", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Lights.MoreRays", "0"},
 	                     {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"},
 	                     {"r.RT.GI.HistorySeconds", "60"}, {"r.RT.Debug.GI.Events", "0"}, {"r.RT.Reflections.HistorySeconds", "60"}}),
 	    "");

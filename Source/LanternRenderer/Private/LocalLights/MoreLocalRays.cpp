@@ -12,7 +12,7 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarMoreRays("r.RT.Lights.MoreRays", true,
-    "Pixels in penumbrae of lamps with an extent have four rays to a lamp instead of one, while the filter has no history to rely on. "
+    "Pixels in penumbrae of lamps with an extent have four rays to a lamp instead of one. They do while the filter has no history of them. "
     "This is what has just come into view, and where light has changed. Needs r.RT.Lights.Denoise, and tiles of few lights "
     "(r.RT.Lights.Exact). Does not count where an engine reads the light mask.");
 
