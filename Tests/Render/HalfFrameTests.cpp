@@ -264,6 +264,7 @@ TEST_F(FHalfFrameTest, ACutForgetsAndANewSizeStartsAnew)
 	SetHalf(true);
 	SetVariable("r.RT.Lights.Denoise", "1");
 	SetVariable("r.RT.Lights.GuideSeconds", "0");
+	SetVariable("r.RT.Lights.MoreRays", "0"); // which make up for histories that are not there
 	constexpr uint32_t Before = 12;
 	const auto Render = [&](const FView& View, uint32_t First, uint32_t Count) {
 		FCapturedFrame Captured;
