@@ -50,6 +50,7 @@ protected:
 		}
 		GetScene().GetScene().AddLight(Light);
 	}
+	bool bSun = false; ///< frames have the sun's shadows as well
 	struct FPlayed
 	{
 		std::vector<FImage> Frames;
@@ -71,6 +72,7 @@ protected:
 			View.DeltaSeconds = 1.0f / 60.0f;
 			FFrameCapture Capture;
 			Capture.Signals.Add(ESignal::LocalDiffuse);
+			if (bSun) { Capture.Signals.Add(ESignal::SunShadow); }
 			FCapturedFrame Captured;
 			EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Captured));
 			Played.Frames.push_back(Captured.Get(ESignal::LocalDiffuse));
@@ -208,6 +210,23 @@ TEST_F(FMoreLocalRaysTest, PointsHaveNone)
 	const FPlayed One = Play("0", 3, true), More = Play("1", 3, true);
 	EXPECT_EQ(More.Rays[2], One.Rays[2]);
 	EXPECT_EQ(More.Frames[2].Pixels, One.Frames[2].Pixels);
+}
+
+TEST_F(FMoreLocalRaysTest, TheSunTracesItsOwn)
+{
+	AddLamp(-0.3, 0.25f);
+	SetSun(2.0, 2.0f);
+	Play("1", 16, false); // for a while after a lamp has come, the filter looks for changes
+	const FPlayed Alone = Play("1", 8, false, 0.02);
+	bSun = true;
+	SetVariable("r.RT.Shadow", "1");
+	Play("1", 16, false);
+	const FPlayed Both = Play("1", 8, false, 0.02);
+	for (size_t Frame = 0; Frame < 8; ++Frame)
+	{
+		EXPECT_EQ(Both.Frames[Frame].Pixels, Alone.Frames[Frame].Pixels) << Frame;
+		EXPECT_GT(Both.Rays[Frame], Alone.Rays[Frame] + 0.5) << Frame;
+	}
 }
 
 TEST_F(FMoreLocalRaysTest, PathsAgree)

@@ -78,13 +78,13 @@ TEST_F(FLightRateTest, MoreRaysAreForPenumbraeOfFilteredLamps)
 	const FLightId Lamp = AddLamp(0, 1.0f);
 	Render();
 	EXPECT_TRUE(HasPass("ShadowRays"));
-	EXPECT_FALSE(HasPass("ShadowMoreAsk"));
+	EXPECT_FALSE(HasPass("ShadowMoreLocalAsk"));
 	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(StartsWith("LocalLights/MoreLocalRays.comp"))));
 	FSceneLight Sphere = GetWorld().GetLights().Get(Lamp);
 	Sphere.Type = LIGHT_SPHERE;
 	Sphere.Size = {0.1, 0};
 	GetWorld().SetLight(Lamp, Sphere);
-	const auto HasMore = [&] { return HasPass("ShadowMoreAsk") && HasPass("ShadowMoreRays"); };
+	const auto HasMore = [&] { return HasPass("ShadowMoreLocalAsk") && HasPass("ShadowMoreLocalRays"); };
 	for (int Frame = 0; Frame < 4 && !HasMore(); ++Frame) { Render(); } // shaders are compiled beside the frames
 	EXPECT_TRUE(HasMore());
 	for (const char* const Name : {"r.RT.Lights.MoreRays", "r.RT.Lights.Denoise"})
@@ -92,7 +92,7 @@ TEST_F(FLightRateTest, MoreRaysAreForPenumbraeOfFilteredLamps)
 		Set(Name, "0");
 		Render();
 		EXPECT_TRUE(HasPass("ShadowRays")) << Name;
-		EXPECT_FALSE(HasPass("ShadowMoreAsk")) << Name;
+		EXPECT_FALSE(HasPass("ShadowMoreLocalAsk")) << Name;
 		Set(Name, "1");
 	}
 }

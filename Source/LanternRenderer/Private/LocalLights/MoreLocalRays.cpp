@@ -78,7 +78,7 @@ void AddMoreLocalRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRa
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
 	if (!RequireDenoiseHistory(Context, FilterName, OutHistory)) { return; }
 	const bool bHistory = Context.Surface.Previous.IsValid() && OutHistory.Previous.IsValid();
-	FMoreRaysPass Inputs{CreateFurtherQueue(Context, Queue, "More"), InOut.TileLights};
+	FMoreRaysPass Inputs{CreateFurtherQueue(Context, Queue, "MoreLocal"), InOut.TileLights};
 	Inputs.Depth = GBuffer.Depth;
 	Inputs.Normals = GBuffer.Normals;
 	if (bHistory)

@@ -83,6 +83,7 @@ void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDisp
 	const FRayQueue More = CreateFurtherQueue(Context, Queue, "More");
 	FQueuedRays Traced = Rays;
 	Traced.MoreSamples = GetMoreRays();
+	Traced.MoreAnswers = {}; // of lamps
 	const FGraphBuffer Marks = CreateSunMarks(Context, More);
 	AddAskPass(Context, Pipeline, More, Tiles, Marks, Changes, OutHistory.Previous);
 	AddSunQueuePass(Context, {More, Marks, Lit, Traced.MoreSamples});
