@@ -39,8 +39,9 @@ FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSi
 	if (bMayHaveChanged && History.Past.NoiseSigma < CertainSigma) { History.Past.Frames = min(History.Past.Frames, 1.0); }
 #endif
 	Unchanged = bMayHaveChanged ? GetUnchangedShare(Frame, History, PreviousSize) : 1.0;
-#ifndef NO_ADAPTION // r.RT.Debug.Denoise.Adapt
-	// Further rays at a border that may have moved are worth more than what was there before.
+#if CHANNELS == 1 && !defined(NO_ADAPTION) // r.RT.Debug.Denoise.Adapt
+	// Further rays at a border that may have moved are worth more than what was there before. Those of lamps are few, and ask for a history:
+	// without one they would be asked for again in each frame.
 	if (bMayHaveChanged && Push.bChangesKnown != 0u && Frame.Rays >= EnoughRays) { Unchanged = 0.0; }
 #endif
 	// Between texels a history holds no edge: what is narrower than a pixel is this frame's alone.
