@@ -11,7 +11,6 @@
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FMoreLocalRaysConstants Push; };
 
-const float EnoughFrames = 16.0; // of one ray each, that a history is relied on from
 const uint AllSlots = (1u << TILE_LIGHTS) - 1u;
 
 shared uint SeenSlots, UnseenSlots; // of which some pixel of the tile has such an answer
@@ -61,7 +60,7 @@ void main()
 	barrier();
 	uint Mixed = FindMixedSlots(FSceneRef(Push.Pass.Scene).Data, Tile), Slots = 0u;
 	// Each light's first ray has had room in the queue, so that all further ones have.
-	if ((Mixed & Traced) != 0u && LoadFrames(ivec2(Pixel)) < EnoughFrames) { Slots = Mixed & Traced; }
+	if ((Mixed & Traced) != 0u && LoadFrames(ivec2(Pixel)) < Push.EnoughFrames) { Slots = Mixed & Traced; }
 	if (bInside) { FAnswerRef(Push.MoreAnswers).Data[PixelIndex] = Slots; }
 	if (Mixed == 0u) { return; }
 	Ask(Slots, Place);

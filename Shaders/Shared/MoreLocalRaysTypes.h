@@ -17,7 +17,7 @@ struct FMoreLocalRaysConstants
 	uint Capacity;
 	uint Depth, Normals;   // sampled indices
 	uint History, Anchors; // sampled indices, of the light that was filtered before (FTemporalConstants); NO_TEXTURE: there is none
-	uint Pad;
+	float EnoughFrames;    // of one ray each, that a history is relied on from
 };
 LANTERN_ASSERT_SIZE(FMoreLocalRaysConstants, 80);
 

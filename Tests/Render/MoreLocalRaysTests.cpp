@@ -50,6 +50,7 @@ protected:
 		}
 		GetScene().GetScene().AddLight(Light);
 	}
+	float DeltaSeconds = 1.0f / 60.0f;
 	bool bSun = false; ///< frames have the sun's shadows as well
 	struct FPlayed
 	{
@@ -69,7 +70,7 @@ protected:
 			const uint64_t Before = Renderer.GetRayCounts().Total;
 			FView View = LookAt({Step * Frame, 2.4, 2.6}, {Step * Frame, 0, -0.6}, 0.9f, Width, Height);
 			View.bCut = bCut || Frame == 0;
-			View.DeltaSeconds = 1.0f / 60.0f;
+			View.DeltaSeconds = DeltaSeconds;
 			FFrameCapture Capture;
 			Capture.Signals.Add(ESignal::LocalDiffuse);
 			if (bSun) { Capture.Signals.Add(ESignal::SunShadow); }
@@ -194,6 +195,19 @@ TEST_F(FMoreLocalRaysTest, AHistoryEndsThem)
 	EXPECT_GT(More.Rays[0], 1.05 * One.Rays[0]);
 	EXPECT_GT(More.Rays[1], 1.05 * One.Rays[1]); // one frame of four rays is no history yet
 	EXPECT_EQ(More.Rays[23], One.Rays[23]);
+}
+
+// Histories of slow frames are never worth 16 of them.
+TEST_F(FMoreLocalRaysTest, AHistoryOfSlowFramesEndsThem)
+{
+	AddLamp(-0.3, 0.25f);
+	for (const float Rate : {30.0f, 10.0f})
+	{
+		DeltaSeconds = 1.0f / Rate;
+		const FPlayed One = Play("0", 32, false), More = Play("1", 32, false);
+		EXPECT_GT(More.Rays[0], 1.05 * One.Rays[0]) << Rate;
+		for (size_t Frame = 24; Frame < 32; ++Frame) { EXPECT_EQ(More.Rays[Frame], One.Rays[Frame]) << Rate << ", " << Frame; }
+	}
 }
 
 TEST_F(FMoreLocalRaysTest, WhatComesIntoViewHasThem)

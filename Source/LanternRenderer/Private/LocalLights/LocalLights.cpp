@@ -245,7 +245,8 @@ bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowR
 	if (!AreLocalRequestsReady(Context, Exact) || !IsLightMaskReady(Context)) { return false; }
 	if (!Context.Facts.bMaskAlone && !RequireCompute(Context, MakeShadeSource(Context.Facts, Exact))) { return false; }
 	const char* const Filter = IsMoreWanted(Context.Facts) ? GetSignalInfo(FindMoreLobe(Context.Signals)).Pass : nullptr;
-	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany, Filter};
+	const float MinAlpha = GetMinAlpha(Denoise.Get().HistorySeconds, Context.View.DeltaSeconds);
+	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany, Filter, MinAlpha};
 	return true;
 }
 

@@ -377,7 +377,8 @@ void AddFurtherLocalRays(
 		if (Pipeline) { AddSecondRays(Context, GBuffer, Dispatch, InOut.Queue, InOut.Traced, Pipeline); }
 	}
 	if (!Rays.MoreFilterName) { return; }
-	AddMoreLocalRays(Context, GBuffer, Dispatch, InOut.Queue, InOut.Traced, Defines, Rays.MoreFilterName, InOut.LocalHistory);
+	AddMoreLocalRays(
+	    Context, GBuffer, Dispatch, InOut.Queue, InOut.Traced, Defines, {Rays.MoreFilterName, Rays.MoreMinAlpha}, InOut.LocalHistory);
 }
 
 } // namespace Lantern

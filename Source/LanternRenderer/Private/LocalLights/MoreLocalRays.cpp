@@ -1,6 +1,8 @@
 // Passes that ask for more rays to lamps with an extent, and trace them.
 #include "LocalLights/MoreLocalRays.h"
 
+#include <algorithm>
+
 #include "Denoise/SurfaceHistory.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "MoreLocalRaysTypes.h"
@@ -22,6 +24,7 @@ struct FMoreRaysPass
 	FGraphBuffer TileLights, Answers;
 	FGraphTexture Depth, Normals;
 	FGraphTexture History, Anchors; ///< invalid: there is no history
+	float EnoughFrames = 0.0f;
 };
 
 void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FMoreRaysPass& Inputs)
@@ -52,6 +55,7 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FMoreRaysPa
 			C.Normals = GetSampledIndex(Pass, Inputs.Normals);
 			C.History = GetSampledIndex(Pass, Inputs.History);
 			C.Anchors = GetSampledIndex(Pass, Inputs.Anchors);
+			C.EnoughFrames = Inputs.EnoughFrames;
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -72,13 +76,15 @@ void ListMoreLocalRaysShaders(FShaderDefines Defines, std::vector<FShaderSource>
 }
 
 void AddMoreLocalRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    FQueuedRays& InOut, FShaderDefines Defines, const char* FilterName, FHistoryTexture& OutHistory)
+    FQueuedRays& InOut, FShaderDefines Defines, const FMoreRaysFilter& Filter, FHistoryTexture& OutHistory)
 {
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeMoreLocalRaysSource(std::move(Defines)));
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
-	if (!RequireDenoiseHistory(Context, FilterName, OutHistory)) { return; }
+	if (!RequireDenoiseHistory(Context, Filter.Name, OutHistory)) { return; }
 	const bool bHistory = Context.Surface.Previous.IsValid() && OutHistory.Previous.IsValid();
 	FMoreRaysPass Inputs{CreateFurtherQueue(Context, Queue, "MoreLocal"), InOut.TileLights};
+	// A history is never worth more frames than the inverse of its least weight: at low frame rates all would ask for ever.
+	Inputs.EnoughFrames = std::min(16.0f, 0.5f / Filter.MinAlpha);
 	Inputs.Depth = GBuffer.Depth;
 	Inputs.Normals = GBuffer.Normals;
 	if (bHistory)

@@ -15,10 +15,17 @@ FShaderSource MakeMoreLocalRaysSource(FShaderDefines Defines);
 /// Lists the compute shaders of AddMoreLocalRays.
 void ListMoreLocalRaysShaders(FShaderDefines Defines, std::vector<FShaderSource>& Out);
 
+/// The filter of the lobe whose history says who has more rays.
+struct FMoreRaysFilter
+{
+	const char* Name = ""; ///< FDenoiseInputs::Name
+	float MinAlpha = 1.0f; ///< GetMinAlpha
+};
+
 /// Adds the passes that ask for more rays and trace them, behind all others to local lights. InOut.MoreAnswers gets their answers.
-/// FilterName: FDenoiseInputs::Name of a lobe. OutHistory: FDenoiseInputs::History of that lobe, if it is read. Reads Depth, Normals and
+/// OutHistory: FDenoiseInputs::History of the filtered lobe, if it is read. Reads Depth, Normals and
 /// Motion of the G-buffer. Nothing is added while shaders are being compiled.
 void AddMoreLocalRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    FQueuedRays& InOut, FShaderDefines Defines, const char* FilterName, FHistoryTexture& OutHistory);
+    FQueuedRays& InOut, FShaderDefines Defines, const FMoreRaysFilter& Filter, FHistoryTexture& OutHistory);
 
 } // namespace Lantern

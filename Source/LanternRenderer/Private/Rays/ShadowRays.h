@@ -18,6 +18,7 @@ struct FLocalRays
 	uint32_t PerPixel = 0;                ///< most rays of a pixel
 	bool bMany = false;                   ///< tiles may have more; each of their pixels chooses one
 	const char* MoreFilterName = nullptr; ///< FDenoiseInputs::Name of the lobe whose history says who gets more rays; null: nobody does
+	float MoreMinAlpha = 1.0f;            ///< GetMinAlpha of that lobe
 };
 
 /// What signals ask for in one frame.
