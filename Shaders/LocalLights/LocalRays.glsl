@@ -9,8 +9,8 @@
 
 const uint FirstLocalNumber = 64u; // behind those of the sun
 
-// Number: of the pixel's rays to local lights. More: see LocalNumbers. bFiltered: what it brings counts as chance. What shines from one point does not, unless it was
-// chosen of many (IsCertain in Shade.comp).
+// Number: of the pixel's rays to local lights. More: see LocalNumbers. bFiltered: what it brings counts as chance. What shines from one
+// point does not, unless it was chosen of many (IsCertain in Shade.comp).
 bool SeesLight(uint Index, uint Light, uint Number, uint More, bool bFiltered)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;

@@ -11,8 +11,6 @@
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FMoreLocalRaysConstants Push; };
 
-const uint AllSlots = (1u << TILE_LIGHTS) - 1u;
-
 shared uint SeenSlots, UnseenSlots; // of which some pixel of the tile has such an answer
 
 // Returns how many frames of one ray the pixel's history is worth.
@@ -51,7 +49,7 @@ void main()
 	uint PixelIndex = Pixel.y * View.Width + Pixel.x;
 	bool bInside = !IsOutsideView(View, Pixel);
 	uint Answer = bInside && Tile.Count <= TILE_LIGHTS ? FAnswerRef(Push.Answers).Data[PixelIndex] : 0u;
-	uint Traced = (Answer >> ANSWER_LOCAL_TRACED) & AllSlots, Seen = (Answer >> ANSWER_LOCAL_SEEN) & Traced;
+	uint Traced = (Answer >> ANSWER_LOCAL_TRACED) & ANSWER_MORE_SLOTS, Seen = (Answer >> ANSWER_LOCAL_SEEN) & Traced;
 	if (Place == 0u) { SeenSlots = UnseenSlots = 0u; }
 	if (Place < 2u * TILE_LIGHTS) { Asking[Place] = 0u; }
 	barrier();

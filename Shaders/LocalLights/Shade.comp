@@ -183,7 +183,6 @@ void main()
 	bool bAsked = (Tile.Asking[Place >> 5u] & (1u << (Place & 31u))) != 0u;
 	bool bSeldom = Tile.bChooses != 0u && !ChoosesOfLights(Tile) && !bAsked; // of an emitter; dim ones get rays in some frames alone
 	float Chance = bOfOthers && Tile.Count != 0u ? CHANCE_OF_OTHERS : bSeldom ? CHANCE_OF_NOBODY : Tile.bChooses != 0u ? CHANCE_OF_MANY : CHANCE_SOME;
-	const uint AnySlot = (1u << TILE_LIGHTS) - 1u;
-	if (Tile.bChooses == 0u && !bOfOthers && (More & AnySlot) != 0u) { Chance = CHANCE_OF_SEVERAL + float(LOCAL_MORE_RAYS + 1u); }
+	if (Tile.bChooses == 0u && !bOfOthers && (More & ANSWER_MORE_SLOTS) != 0u) { Chance = CHANCE_OF_SEVERAL + float(LOCAL_MORE_RAYS + 1u); }
 	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? CHANCE_NONE : Chance); }
 }

@@ -15,11 +15,10 @@ struct FMoreLocalRaysConstants
 	FAddress Answers;     // uint[pixels], of the queues before
 	FAddress MoreAnswers; // uint[pixels], see LOCAL_MORE_RAYS; gets the slots
 	uint Capacity;
-	uint Depth, Normals;   // sampled indices
 	uint History, Anchors; // sampled indices, of the light that was filtered before (FTemporalConstants); NO_TEXTURE: there is none
 	float EnoughFrames;    // of one ray each, that a history is relied on from
 };
-LANTERN_ASSERT_SIZE(FMoreLocalRaysConstants, 80);
+LANTERN_ASSERT_SIZE(FMoreLocalRaysConstants, 72);
 
 LANTERN_SHARED_END
 

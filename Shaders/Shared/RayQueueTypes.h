@@ -58,6 +58,7 @@ LANTERN_ASSERT_SIZE(FRayQueueCounters, 40);
 // Further rays of a pixel to a light in a slot, each in a thread of its own. Their answers are a word for each pixel: the lowest 8 bits
 // say which slots have some, and behind them are LOCAL_MORE_RAYS bits for each slot, of the rays that see the light.
 #define LOCAL_MORE_RAYS 3u
+#define ANSWER_MORE_SLOTS 0xffu
 #define ANSWER_MORE_SEEN 8u // lowest bit of the first slot
 
 struct FShadowQueueConstants
@@ -83,8 +84,9 @@ struct FShadowQueueConstants
 	uint Motion;          // sampled index, or NO_TEXTURE: FGBuffer::Motion, for HAS_CHARACTERS
 	uint Classes;         // sampled index, or NO_TEXTURE: FGBuffer::Classes, for HAS_CHARACTERS
 	uint ClassesOffset;   // of the view in Classes, pixels: x | y << 16
-	// Sun samples of each request, each in a thread of its own, which come on top of earlier answers. 0: a thread traces SamplesPerPixel.
-	uint MoreSamples; // or LOCAL_MORE_RAYS, and requests are for a light in a slot
+	// Further samples of each request, each in a thread of its own: of the sun, which come on top of earlier answers, or LOCAL_MORE_RAYS of a
+	// light in a slot. 0: a thread traces what a request asks for at first.
+	uint MoreSamples;
 	uint Pad;
 	FAddress MoreAnswers; // uint[pixels]: see LOCAL_MORE_RAYS; 0: MoreSamples are of the sun
 };

@@ -1,5 +1,6 @@
 // Asks for more sun rays where one cannot tell and no history helps: in penumbrae that have just come into view, in all but wide ones
 // while the picture moves, and in those that move. A penumbra shows by rays of the neighbourhood that differ, or by what the history has seen.
+// Without a history it shows by rays of the tile.
 #version 460
 #include "../Shared/MoreRaysTypes.h"
 #include "../Library/GBuffer.glsl"
@@ -16,7 +17,8 @@ const float WideEnough = 12.0;             // pixels: a penumbra that histories 
 const float LeastCoverage = 0.5;          // of a history
 const float LeastShare = 0.03;            // of the sun, that a history has seen, or not seen, in a penumbra
 
-shared uint States[RingSize * RingSize], Wanted[2], bTouched, TileStates;
+shared uint States[RingSize * RingSize], Wanted[2], bTouched;
+shared uint RingStates; // of the tile and its ring together
 
 // The answers of a pixel that faces the sun.
 uint LoadState(FViewConstants View, ivec2 Pixel)
@@ -32,10 +34,13 @@ uint LoadState(FViewConstants View, ivec2 Pixel)
 void LoadStates(FViewConstants View, uint Place)
 {
 	ivec2 First = ivec2(gl_WorkGroupID.xy) * TILE_SIZE - 1;
+	uint Mine = 0u;
 	for (uint I = Place; I < uint(RingSize * RingSize); I += TILE_PIXELS)
 	{
 		States[I] = LoadState(View, First + ivec2(I % RingSize, I / RingSize));
+		Mine |= States[I];
 	}
+	if (Mine != 0u) { atomicOr(RingStates, Mine); }
 }
 
 // Joins the answers of the 3 × 3 pixels around one.
@@ -86,7 +91,7 @@ bool NeedsMore(FViewConstants View, ivec2 Pixel, bool bBorder)
 	vec4 Motion = texelFetch(Textures[Push.Motion], Pixel, 0);
 	FReprojection R = LoadReprojection(Push.Reprojection, Pixel);
 	if (MovedItself(View, Surface.Distance, uvec2(Pixel), Motion)) { return bBorder; }
-	if (R.Coverage < LeastCoverage) { return bBorder || TileStates == (SeesSun | SeesNone); }
+	if (R.Coverage < LeastCoverage) { return RingStates == (SeesSun | SeesNone); }
 	// A history of the very same point needs no interpolation.
 	if (!any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)))) { return false; }
 	if (!bBorder && !WasPenumbra(R)) { return false; }
@@ -124,12 +129,11 @@ void main()
 	{
 		Wanted[0] = Wanted[1] = 0u;
 		bTouched = 0u;
-		TileStates = 0u;
+		RingStates = 0u;
 		StartBounds();
 	}
-	LoadStates(View, Place);
 	barrier();
-	for (uint I = Place; I < uint(RingSize * RingSize); I += TILE_PIXELS) { atomicOr(TileStates, States[I]); }
+	LoadStates(View, Place);
 	barrier();
 	bool bAsked = IsMarked(Tile.SunRays, Place) && States[(At.y + 1u) * RingSize + At.x + 1u] != 0u;
 	FindTouched(View, bAsked, ivec2(Pixel));

@@ -47,16 +47,7 @@ protected:
 	static FView LookAtSheet() { return LookAt({0, 0, 4}, {0, 0, 0}, glm::radians(10.0f), 32, 32); }
 	static void AddLamp(const glm::dvec3& Position, float Radius = 0.0f)
 	{
-		FSceneLight Light;
-		Light.Position = Position;
-		Light.Color = glm::vec3(6.0f);
-		if (Radius > 0.0f)
-		{
-			Light.Type = LIGHT_SPHERE;
-			Light.Size = {Radius, 0};
-			Light.Color *= 1.0f / (3.14159265f * Radius * Radius);
-		}
-		GetScene().GetScene().AddLight(Light);
+		GetScene().GetScene().AddLight(MakeLamp(Position, glm::vec3(6.0f), Radius));
 	}
 	/// Tilted sheets on a floor, and a post behind one, whose shadow it shows.
 	void LoadScreens()

@@ -45,19 +45,7 @@ protected:
 		ASSERT_TRUE(Load(std::move(Scene.Scene)));
 		SetSun(0.0, 0.0f);
 		SetSky(glm::vec3(0));
-		for (const double X : {-1.0, 0.2, 1.5})
-		{
-			FSceneLight Light;
-			Light.Position = {X, 1.2, -2.5};
-			Light.Color = glm::vec3(4.0f);
-			if (Radius > 0.0f)
-			{
-				Light.Type = LIGHT_SPHERE;
-				Light.Size = {Radius, 0};
-				Light.Color *= 1.0f / (3.14159265f * Radius * Radius);
-			}
-			GetScene().GetScene().AddLight(Light);
-		}
+		for (const double X : {-1.0, 0.2, 1.5}) { GetScene().GetScene().AddLight(MakeLamp({X, 1.2, -2.5}, glm::vec3(4.0f), Radius)); }
 	}
 	/// A floor, seen from above, under a white sky.
 	void LoadOpenFloor()

@@ -92,16 +92,8 @@ std::vector<FLightId> FLightMaskTest::AddLamps(uint32_t Count, float Radius)
 	for (uint32_t I = 0; I < Count; ++I)
 	{
 		const double Angle = 0.3 + 2.4 * I, Far = 2.2 * std::sqrt((I + 0.5) / Count);
-		FSceneLight Light;
-		Light.Position = {Far * std::cos(Angle), 1.6 + 0.1 * (I % 7), Far * std::sin(Angle)};
-		Light.Color = glm::vec3(1.0f + 0.5f * float(I % 3)) * (4.0f / float(Count));
-		if (Radius > 0.0f)
-		{
-			Light.Type = LIGHT_SPHERE;
-			Light.Size = {Radius, 0};
-			Light.Color *= 1.0f / (3.14159265f * Radius * Radius);
-		}
-		Ids.push_back(GetWorld().AddLight(Light));
+		const glm::dvec3 Position(Far * std::cos(Angle), 1.6 + 0.1 * (I % 7), Far * std::sin(Angle));
+		Ids.push_back(GetWorld().AddLight(MakeLamp(Position, glm::vec3(1.0f + 0.5f * float(I % 3)) * (4.0f / float(Count)), Radius)));
 	}
 	return Ids;
 }

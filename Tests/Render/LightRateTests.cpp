@@ -42,16 +42,9 @@ protected:
 		for (uint32_t I = 0; I < Lamps; ++I)
 		{
 			const double Angle = 0.5 + 2.4 * I, Far = 2.6 * std::sqrt((I + 0.5) / Lamps);
-			FSceneLight Light;
-			Light.Position = {Far * std::cos(Angle), 0.8 + 0.11 * (I % 7), Far * std::sin(Angle)};
-			Light.Color = glm::vec3(2.0f, 1.5f, 1.0f + 0.3f * float(I % 4)) * (4.0f / float(Lamps));
-			if (Spheres > 0 && I % Spheres == 0)
-			{
-				Light.Type = LIGHT_SPHERE;
-				Light.Size = {0.12, 0};
-				Light.Color *= 1.0f / (3.14159265f * 0.12f * 0.12f);
-			}
-			GetScene().GetScene().AddLight(Light);
+			const glm::dvec3 Position(Far * std::cos(Angle), 0.8 + 0.11 * (I % 7), Far * std::sin(Angle));
+			const glm::vec3 Intensity = glm::vec3(2.0f, 1.5f, 1.0f + 0.3f * float(I % 4)) * (4.0f / float(Lamps));
+			GetScene().GetScene().AddLight(MakeLamp(Position, Intensity, Spheres > 0 && I % Spheres == 0 ? 0.12f : 0.0f));
 		}
 	}
 	static FView LookAtPosts(uint32_t Width, uint32_t Height, double Aside = 0.0)

@@ -38,16 +38,8 @@ protected:
 	}
 	void AddLamp(double X, float Radius, bool bCastsShadow = true)
 	{
-		FSceneLight Light;
+		FSceneLight Light = MakeLamp({X, 1.6, 1.2}, glm::vec3(4), Radius);
 		Light.bCastsShadow = bCastsShadow;
-		Light.Position = {X, 1.6, 1.2};
-		Light.Color = glm::vec3(4);
-		if (Radius > 0.0f)
-		{
-			Light.Type = LIGHT_SPHERE;
-			Light.Size = {Radius, 0};
-			Light.Color *= 1.0f / (3.14159265f * Radius * Radius);
-		}
 		GetScene().GetScene().AddLight(Light);
 	}
 	float DeltaSeconds = 1.0f / 60.0f;
@@ -86,19 +78,21 @@ protected:
 
 struct FSpread
 {
-	double Mean = 0.0, MeanError = 0.0;
-	double Variance = 0.0; ///< between frames, sum over pixels
+	double Mean = 0.0, MeanError = 0.0; ///< sum over pixels, and its standard error
+	double Variance = 0.0;              ///< between frames, sum over pixels
 };
 
-FSpread MeasureSpread(const std::vector<FImage>& Frames)
+/// Of pixels that Counts(X, Y) names.
+template <class T>
+FSpread MeasureSpread(const std::vector<FImage>& Frames, T&& Counts)
 {
 	FSpread Out;
 	const double N = double(Frames.size());
-	double MeanVariance = 0.0;
 	for (uint32_t Y = 0; Y < Height; ++Y)
 	{
 		for (uint32_t X = 0; X < Width; ++X)
 		{
+			if (!Counts(X, Y)) { continue; }
 			double Sum = 0.0, Squares = 0.0;
 			for (const FImage& Frame : Frames)
 			{
@@ -106,14 +100,19 @@ FSpread MeasureSpread(const std::vector<FImage>& Frames)
 				Sum += Value;
 				Squares += Value * Value;
 			}
-			const double Variance = std::max(0.0, (Squares - Sum * Sum / N) / (N - 1.0));
 			Out.Mean += Sum / N;
-			Out.Variance += Variance;
-			MeanVariance += Variance / N;
+			Out.Variance += std::max(0.0, (Squares - Sum * Sum / N) / (N - 1.0));
 		}
 	}
-	Out.MeanError = std::sqrt(MeanVariance);
+	Out.MeanError = std::sqrt(Out.Variance / N);
 	return Out;
+}
+
+double MeanOfPixel(const std::vector<FImage>& Frames, uint32_t X, uint32_t Y)
+{
+	double Sum = 0.0;
+	for (const FImage& Frame : Frames) { Sum += GetLuminance(Frame, X, Y); }
+	return Sum / double(Frames.size());
 }
 
 TEST_F(FMoreLocalRaysTest, PenumbraeWithoutAHistoryHaveLessNoise)
@@ -121,7 +120,8 @@ TEST_F(FMoreLocalRaysTest, PenumbraeWithoutAHistoryHaveLessNoise)
 	AddLamp(-0.3, 0.25f);
 	AddLamp(0.4, 0.15f);
 	const FPlayed One = Play("0", 64, true), More = Play("1", 64, true);
-	const FSpread Before = MeasureSpread(One.Frames), Now = MeasureSpread(More.Frames);
+	const auto All = [](uint32_t, uint32_t) { return true; };
+	const FSpread Before = MeasureSpread(One.Frames, All), Now = MeasureSpread(More.Frames, All);
 	ASSERT_GT(Before.Variance, 0.0);
 	std::printf("variance %.3f of one ray's, mean %.5f of it, rays %.3f and %.3f\n", Now.Variance / Before.Variance, Now.Mean / Before.Mean,
 	    One.Rays[8], More.Rays[8]);
@@ -131,39 +131,6 @@ TEST_F(FMoreLocalRaysTest, PenumbraeWithoutAHistoryHaveLessNoise)
 	EXPECT_NEAR(Now.Mean, Before.Mean, 3.0 * std::hypot(Before.MeanError, Now.MeanError));
 	EXPECT_GT(More.Rays[8], One.Rays[8]);
 	EXPECT_LT(More.Rays[8], 2.0 * One.Rays[8]); // tiles that are lit or dark as a whole have none
-}
-
-/// Light of pixels of which a lamp shows between Least and Most, and its standard error. Lit: of one frame without shadows.
-struct FPenumbra
-{
-	double Sum = 0.0, Error = 0.0;
-};
-
-FPenumbra MeasurePenumbra(
-    const std::vector<FImage>& Chosen, const std::vector<FImage>& Frames, const FImage& Lit, double Least, double Most)
-{
-	FPenumbra Out;
-	const double N = double(Frames.size());
-	for (uint32_t Y = 0; Y < Height; ++Y)
-	{
-		for (uint32_t X = 0; X < Width; ++X)
-		{
-			double Seen = 0.0, Sum = 0.0, Squares = 0.0;
-			for (size_t I = 0; I < Frames.size(); ++I)
-			{
-				Seen += GetLuminance(Chosen[I], X, Y) / N;
-				const double Value = GetLuminance(Frames[I], X, Y);
-				Sum += Value / N;
-				Squares += Value * Value / N;
-			}
-			const double Share = Seen / std::max(double(GetLuminance(Lit, X, Y)), 1e-6);
-			if (Share < Least || Share > Most) { continue; }
-			Out.Sum += Sum;
-			Out.Error += std::max(0.0, Squares - Sum * Sum) / N;
-		}
-	}
-	Out.Error = std::sqrt(Out.Error);
-	return Out;
 }
 
 /// What few rays saw must not decide whether a pixel gets more: the rare answer would then ask more often, and weigh less. Where the eight
@@ -179,12 +146,15 @@ TEST_F(FMoreLocalRaysTest, PenumbraeKeepTheirMean)
 	const FPlayed One = Play("0", Frames, true), More = Play("1", Frames, true);
 	for (const auto& [Least, Most] : {std::pair(0.05, 0.4), {0.6, 0.95}})
 	{
-		const FPenumbra A = MeasurePenumbra(Chosen.Frames, One.Frames, Lit, Least, Most);
-		const FPenumbra B = MeasurePenumbra(Chosen.Frames, More.Frames, Lit, Least, Most);
-		ASSERT_GT(A.Sum, 0.0);
-		std::printf("%.2f to %.2f: %.4f of one ray's light, standard error %.4f\n", Least, Most, B.Sum / A.Sum,
-		    std::hypot(A.Error, B.Error) / A.Sum);
-		EXPECT_NEAR(B.Sum, A.Sum, 3.0 * std::hypot(A.Error, B.Error));
+		const auto IsPenumbra = [&, Least = Least, Most = Most](uint32_t X, uint32_t Y) {
+			const double Share = MeanOfPixel(Chosen.Frames, X, Y) / std::max(double(GetLuminance(Lit, X, Y)), 1e-6);
+			return Share >= Least && Share <= Most;
+		};
+		const FSpread A = MeasureSpread(One.Frames, IsPenumbra), B = MeasureSpread(More.Frames, IsPenumbra);
+		ASSERT_GT(A.Mean, 0.0);
+		const double Error = std::hypot(A.MeanError, B.MeanError);
+		std::printf("%.2f to %.2f: %.4f of one ray's light, standard error %.4f\n", Least, Most, B.Mean / A.Mean, Error / A.Mean);
+		EXPECT_NEAR(B.Mean, A.Mean, 3.0 * Error);
 	}
 }
 

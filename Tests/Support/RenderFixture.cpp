@@ -173,6 +173,20 @@ void FRenderTest::SetSun(double DiameterDegrees, float Irradiance, glm::dvec3 Di
 
 void FRenderTest::SetSky(glm::vec3 Radiance) { GetScene().GetScene().SetSky(Radiance); }
 
+FSceneLight FRenderTest::MakeLamp(const glm::dvec3& Position, glm::vec3 Intensity, float Radius)
+{
+	FSceneLight Light;
+	Light.Position = Position;
+	Light.Color = Intensity;
+	if (Radius > 0.0f)
+	{
+		Light.Type = LIGHT_SPHERE;
+		Light.Size = {Radius, 0};
+		Light.Color *= 1.0f / (3.14159265f * Radius * Radius);
+	}
+	return Light;
+}
+
 void FRenderTest::SetVariable(const char* Name, const std::string& Value)
 {
 	const auto Fault = FConsoleVariables::Get().Set(Name, Value, ERTSetBy::Console, "test");

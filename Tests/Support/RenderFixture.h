@@ -58,6 +58,8 @@ protected:
 	/// Light of comparisons outdoors: sun 4 lux along (0.25, −1, 0.35).
 	static void SetSun(double DiameterDegrees, float Irradiance = 4.0f, glm::dvec3 Direction = {0.25, -1.0, 0.35});
 	static void SetSky(glm::vec3 Radiance);
+	/// A point lamp, or with a radius in metres a sphere of that intensity.
+	static FSceneLight MakeLamp(const glm::dvec3& Position, glm::vec3 Intensity, float Radius = 0.0f);
 	static void SetVariable(const char* Name, const std::string& Value);
 
 	/// Runs a compute shader and waits for it. Results: the buffer that the shader writes and the host reads.

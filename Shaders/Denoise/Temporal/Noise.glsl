@@ -86,7 +86,8 @@ float LoadRays()
 FFrameEstimate EstimateEvenFrame()
 {
 	int Own = GetTileIndex(ivec2(0));
-	FNeighborhood Neighborhood = FNeighborhood(HasValue(Own) ? GetEvenValue() : 0.0, 0.0, 1.0); // nobody asks how many they are where nothing may have changed
+	// Nobody asks how many neighbours there are where nothing may have changed.
+	FNeighborhood Neighborhood = FNeighborhood(HasValue(Own) ? GetEvenValue() : 0.0, 0.0, 1.0);
 	return FFrameEstimate(TileSignal[Own], HasValue(Own), Neighborhood, 0.0, LoadRays(), MaxHalf);
 }
 

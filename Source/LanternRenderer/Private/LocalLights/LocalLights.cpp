@@ -244,9 +244,12 @@ bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowR
 	if (HasEmitters(Context.Facts) && !Dispatch.Has("LOCAL_EMISSIVE")) { return false; }
 	if (!AreLocalRequestsReady(Context, Exact) || !IsLightMaskReady(Context)) { return false; }
 	if (!Context.Facts.bMaskAlone && !RequireCompute(Context, MakeShadeSource(Context.Facts, Exact))) { return false; }
-	const char* const Filter = IsMoreWanted(Context.Facts) ? GetSignalInfo(FindMoreLobe(Context.Signals)).Pass : nullptr;
-	const float MinAlpha = GetMinAlpha(Denoise.Get().HistorySeconds, Context.View.DeltaSeconds);
-	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany, Filter, MinAlpha};
+	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany, {}};
+	if (IsMoreWanted(Context.Facts))
+	{
+		const float MinAlpha = GetMinAlpha(Denoise.Get().HistorySeconds, Context.View.DeltaSeconds);
+		InOut.Local->More = FMoreRaysFilter{GetSignalInfo(FindMoreLobe(Context.Signals)).Pass, MinAlpha};
+	}
 	return true;
 }
 

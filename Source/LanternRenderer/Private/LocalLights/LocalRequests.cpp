@@ -376,9 +376,7 @@ void AddFurtherLocalRays(
 		IRTPipeline* const Pipeline = RequireCompute(Context, MakeSecondRaysSource(Defines));
 		if (Pipeline) { AddSecondRays(Context, GBuffer, Dispatch, InOut.Queue, InOut.Traced, Pipeline); }
 	}
-	if (!Rays.MoreFilterName) { return; }
-	AddMoreLocalRays(
-	    Context, GBuffer, Dispatch, InOut.Queue, InOut.Traced, Defines, {Rays.MoreFilterName, Rays.MoreMinAlpha}, InOut.LocalHistory);
+	if (Rays.More) { AddMoreLocalRays(Context, GBuffer, Dispatch, InOut, Defines, *Rays.More); }
 }
 
 } // namespace Lantern

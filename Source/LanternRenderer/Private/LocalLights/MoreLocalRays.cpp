@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "Denoise/Denoise.h"
 #include "Denoise/SurfaceHistory.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "MoreLocalRaysTypes.h"
@@ -22,7 +23,6 @@ struct FMoreRaysPass
 {
 	FRayQueue Queue;
 	FGraphBuffer TileLights, Answers;
-	FGraphTexture Depth, Normals;
 	FGraphTexture History, Anchors; ///< invalid: there is no history
 	float EnoughFrames = 0.0f;
 };
@@ -31,7 +31,7 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FMoreRaysPa
 {
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass((Inputs.Queue.Name + "Ask").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Texture : {Inputs.Depth, Inputs.Normals, Inputs.History, Inputs.Anchors})
+		for (const FGraphTexture Texture : {Inputs.History, Inputs.Anchors})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -51,8 +51,6 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FMoreRaysPa
 			C.Answers = GetAddress(Pass, Inputs.Queue.Answers);
 			C.MoreAnswers = GetAddress(Pass, Inputs.Answers);
 			C.Capacity = Inputs.Queue.Capacity;
-			C.Depth = GetSampledIndex(Pass, Inputs.Depth);
-			C.Normals = GetSampledIndex(Pass, Inputs.Normals);
 			C.History = GetSampledIndex(Pass, Inputs.History);
 			C.Anchors = GetSampledIndex(Pass, Inputs.Anchors);
 			C.EnoughFrames = Inputs.EnoughFrames;
@@ -60,43 +58,38 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FMoreRaysPa
 		};
 	});
 }
+
+FShaderSource MakeSource(FShaderDefines Defines) { return MakeComputeSource("LocalLights/MoreLocalRays.comp", std::move(Defines)); }
 } // namespace
 
 bool WantsMoreLocalRays(const FSceneFacts& Facts) { return CVarMoreRays.GetOnRenderThread() && Facts.bAreaLights && !Facts.bLightMask; }
 
-FShaderSource MakeMoreLocalRaysSource(FShaderDefines Defines)
-{
-	return MakeComputeSource("LocalLights/MoreLocalRays.comp", std::move(Defines));
-}
-
 void ListMoreLocalRaysShaders(FShaderDefines Defines, std::vector<FShaderSource>& Out)
 {
-	Out.push_back(MakeMoreLocalRaysSource(std::move(Defines)));
+	Out.push_back(MakeSource(std::move(Defines)));
 	ListSurfaceShaders(Out);
 }
 
-void AddMoreLocalRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    FQueuedRays& InOut, FShaderDefines Defines, const FMoreRaysFilter& Filter, FHistoryTexture& OutHistory)
+void AddMoreLocalRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, FShadowRays& InOut,
+    FShaderDefines Defines, const FMoreRaysFilter& Filter)
 {
-	IRTPipeline* const Pipeline = RequireCompute(Context, MakeMoreLocalRaysSource(std::move(Defines)));
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource(std::move(Defines)));
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
-	if (!RequireDenoiseHistory(Context, Filter.Name, OutHistory)) { return; }
-	const bool bHistory = Context.Surface.Previous.IsValid() && OutHistory.Previous.IsValid();
-	FMoreRaysPass Inputs{CreateFurtherQueue(Context, Queue, "MoreLocal"), InOut.TileLights};
+	if (!RequireDenoiseHistory(Context, Filter.Name, InOut.LocalHistory)) { return; }
+	const bool bHistory = Context.Surface.Previous.IsValid() && InOut.LocalHistory.Previous.IsValid();
+	FMoreRaysPass Inputs{CreateFurtherQueue(Context, InOut.Queue, "MoreLocal"), InOut.Traced.TileLights};
 	// A history is never worth more frames than the inverse of its least weight: at low frame rates all would ask for ever.
 	Inputs.EnoughFrames = std::min(16.0f, 0.5f / Filter.MinAlpha);
-	Inputs.Depth = GBuffer.Depth;
-	Inputs.Normals = GBuffer.Normals;
 	if (bHistory)
 	{
-		Inputs.History = OutHistory.Previous;
+		Inputs.History = InOut.LocalHistory.Previous;
 		Inputs.Anchors = Context.Surface.Anchors;
 	}
 	Inputs.Answers = Context.Graph.CreateBuffer({uint64_t(Context.Width) * Context.Height * sizeof(uint32_t)}, "MoreLocalAnswers");
 	AddAskPass(Context, Pipeline, Inputs);
-	FQueuedRays Traced = InOut;
+	InOut.Traced.MoreAnswers = Inputs.Answers;
+	FQueuedRays Traced = InOut.Traced;
 	Traced.MoreSamples = LOCAL_MORE_RAYS;
-	Traced.MoreAnswers = InOut.MoreAnswers = Inputs.Answers;
 	AddShadowRaysPass(Context, GBuffer, Dispatch, Inputs.Queue, Traced);
 }
 

@@ -11,14 +11,20 @@
 namespace Lantern
 {
 
+/// The filter of the lobe whose history says who has more rays.
+struct FMoreRaysFilter
+{
+	const char* Name = ""; ///< FDenoiseInputs::Name
+	float MinAlpha = 1.0f; ///< GetMinAlpha
+};
+
 /// Rays towards lights other than the sun.
 struct FLocalRays
 {
-	uint32_t Exact = 0;                   ///< most lights of a tile that all get rays, 1 to 8
-	uint32_t PerPixel = 0;                ///< most rays of a pixel
-	bool bMany = false;                   ///< tiles may have more; each of their pixels chooses one
-	const char* MoreFilterName = nullptr; ///< FDenoiseInputs::Name of the lobe whose history says who gets more rays; null: nobody does
-	float MoreMinAlpha = 1.0f;            ///< GetMinAlpha of that lobe
+	uint32_t Exact = 0;                  ///< most lights of a tile that all get rays, 1 to 8
+	uint32_t PerPixel = 0;               ///< most rays of a pixel
+	bool bMany = false;                  ///< tiles may have more; each of their pixels chooses one
+	std::optional<FMoreRaysFilter> More; ///< empty: no pixel has more rays
 };
 
 /// What signals ask for in one frame.
@@ -41,7 +47,7 @@ struct FShadowRays
 	FSunRays Sun;
 	FShadowChanges Changes;       ///< of the sun's shadows, if they are filtered
 	FHistoryTexture SunHistory;   ///< FDenoiseInputs::History of sun shadows, if passes before the filter read it
-	FHistoryTexture LocalHistory; ///< and of the lobe of FLocalRays::MoreFilterName
+	FHistoryTexture LocalHistory; ///< and of the lobe of FLocalRays::More
 	FSettledTiles Settled;
 	FHostShadowMap Map; ///< what it holds is left to it
 	FQueuedRays Traced;
