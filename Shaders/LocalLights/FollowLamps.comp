@@ -1,4 +1,4 @@
-// By how much a lobe of each pixel has changed since the last frame, because lights have: what the filter adds to its history.
+// By how much each pixel's lobes have changed since the last frame, because lights have: what the filters add to their histories.
 // What lights bring is known. Whether they are seen is what the rays of the tile and of those around it said in the last frames.
 #version 460
 #include "../Shared/LampChangeTypes.h"
@@ -51,13 +51,26 @@ vec2 ExpectSeen(FViewConstants View, uint Light)
 	return vec2(Visibility, Visibility * (1.0 - Visibility) + 0.25 / Rays.x);
 }
 
-vec3 BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, uint Number, FLightData Light, vec2 U)
+// By how much lobes have changed, each with the variance of that.
+struct FChange
 {
-	if (LightType(Light) == LIGHT_NONE || !SharesChannel(Light, Point.Channels)) { return vec3(0.0); }
+	vec4 Diffuse, Specular;
+};
+
+FLobes BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, uint Number, FLightData Light, vec2 U)
+{
+	const FLobes None = FLobes(vec3(0.0), vec3(0.0));
+	if (LightType(Light) == LIGHT_NONE || !SharesChannel(Light, Point.Channels)) { return None; }
 	FLightSample Sample = SampleLight(Scene, Light, Point.P, U);
-	if (!ReachesLight(View, Point, Sample)) { return vec3(0.0); }
-	FLobes Lobes = Demodulate(ReflectLight(Point, Local, Sample, Number), Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
-	return Push.bSpecular != 0u ? Lobes.Specular : Lobes.Diffuse;
+	if (!ReachesLight(View, Point, Sample)) { return None; }
+	return Demodulate(ReflectLight(Point, Local, Sample, Number), Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
+}
+
+// Known: expected visibility, and its variance.
+vec4 WeighLamp(vec3 More, vec2 Known)
+{
+	float Brightness = Luminance(More);
+	return vec4(More * Known.x, Brightness * Brightness * Known.y);
 }
 
 // Returns a light of the table as it is now. Slots at its end go when they fall free.
@@ -78,6 +91,7 @@ void SortEmitters(FLampChangesRef List, uint Count, uint Place)
 }
 
 const float ClusterError = 1.0; // of a difference, about
+const uint MostPoints = 6u;     // of a row
 
 // Returns the colour of a cluster's light, of luminance 1: that of the middle of its first triangle.
 vec3 ClusterColor(FSceneConstants Scene, FEmitterCluster Cluster)
@@ -89,32 +103,51 @@ vec3 ClusterColor(FSceneConstants Scene, FEmitterCluster Cluster)
 	return Brightness > 0.0 ? Emission / Brightness : vec3(1.0);
 }
 
-// Returns about what a lobe reflects of a cluster, from four points of it. Near light comes from all over it.
-float ClusterBringsTo(FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, FEmitterCluster Cluster)
+// Returns how many rows and columns of points of a cluster's rectangle tell what lobes reflect of it. Near light comes from all over it, and
+// a narrow lobe sees parts alone.
+// To: middle of the rectangle, from the surface. Half: of its edges.
+uint CountPoints(mat3 Basis, vec3 To, vec2 Half, float Roughness)
 {
-	mat3 Basis = MakeBasis(IsFlat(Cluster) ? Cluster.Normal : NormalizeOr(Cluster.Center - Point.P, vec3(0.0, 0.0, 1.0)));
-	vec2 Half = vec2(dot(abs(Basis[0]), Cluster.Half), dot(abs(Basis[1]), Cluster.Half)) * 0.577; // points of Gauss
+	vec3 At = To * Basis, Outside = vec3(max(abs(At.xy) - Half, vec2(0.0)), At.z);
+	float Part = clamp(2.0 * Roughness * Roughness, 0.15, 0.25); // of the distance that lies between points
+	return uint(clamp(ceil(2.0 * max(Half.x, Half.y) / max(Part * length(Outside), 1.0e-6)), 1.0, float(MostPoints)));
+}
+
+// Returns about how bright what lobes reflect of a cluster is.
+vec2 ClusterBringsTo(FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, FEmitterCluster Cluster)
+{
+	vec3 ToCenter = Cluster.Center - Point.P;
+	mat3 Basis = MakeBasis(IsFlat(Cluster) ? Cluster.Normal : NormalizeOr(ToCenter, vec3(0.0, 0.0, 1.0)));
+	vec2 Half = vec2(dot(abs(Basis[0]), Cluster.Half), dot(abs(Basis[1]), Cluster.Half));
+	uint Rows = CountPoints(Basis, ToCenter, Half, Roughness);
+	float Share = 1.0 / float(Rows * Rows);
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
-	[[dont_unroll]] for (uint I = 0u; I < 4u; ++I)
+	[[dont_unroll]] for (uint I = 0u; I < Rows * Rows; ++I)
 	{
-		vec3 To = Cluster.Center + Basis[0] * ((I & 1u) != 0u ? Half.x : -Half.x) + Basis[1] * ((I & 2u) != 0u ? Half.y : -Half.y) - Point.P;
+		vec2 At = ((vec2(I % Rows, I / Rows) + 0.5) * (2.0 / float(Rows)) - 1.0) * Half;
+		vec3 To = ToCenter + Basis[0] * At.x + Basis[1] * At.y;
 		float DistanceSquared = max(dot(To, To), 1.0e-8);
 		vec3 Direction = To * inversesqrt(DistanceSquared);
 		float Facing = max(-dot(Cluster.Normal, Direction), 0.0) + 0.25 * (1.0 - length(Cluster.Normal));
-		FLightSample Sample = FLightSample(Direction, sqrt(DistanceSquared), vec3(0.25 / EmissionScale * ClusterIrradiance(Cluster, DistanceSquared / max(Facing, 1.0e-4))), 1.0);
+		float Irradiance = Cluster.Power / EmissionScale * min(Share * Facing / DistanceSquared, Pi / max(Cluster.Area, 1.0e-12));
+		FLightSample Sample = FLightSample(Direction, sqrt(DistanceSquared), vec3(Irradiance), 1.0);
 		if (!ReachesLight(View, Point, Sample)) { continue; }
 		FLobes Lobes = ReflectLight(Point, Local, Sample, LIGHT_TRIANGLE);
 		Sum.Diffuse += Lobes.Diffuse;
 		Sum.Specular += Lobes.Specular;
 	}
 	Sum = Demodulate(Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
-	return Luminance(Push.bSpecular != 0u ? Sum.Specular : Sum.Diffuse);
+	return vec2(Luminance(Sum.Diffuse), Luminance(Sum.Specular));
 }
 
-// Returns what emissive triangles have changed, and its variance.
-vec4 FollowEmitters(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, FLocalPoint Point, FLocalBrdf Local, float Roughness)
+vec4 WeighCluster(float More, vec3 Color, vec2 Known)
 {
-	vec4 Sum = vec4(0.0);
+	return vec4(More * Known.x * Color, More * More * (Known.y + ClusterError * ClusterError * Known.x * Known.x));
+}
+
+// Adds what emissive triangles have changed.
+void FollowEmitters(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, FLocalPoint Point, FLocalBrdf Local, float Roughness, inout FChange Sum)
+{
 	for (uint I = 0u; I < Count; ++I)
 	{
 		FEmitterChange Change = List.Data.Emitters[EmitterOrder[I]];
@@ -122,39 +155,46 @@ vec4 FollowEmitters(FSceneConstants Scene, FViewConstants View, FLampChangesRef 
 		uint Object = FEmissiveClusterRef(Scene.EmissiveClusters).Data[Change.Cluster].Object;
 		vec3 Offset = CellOffset(Scene, FObjectRef(Scene.Objects).Data[Object].Cell);
 		FEmitterCluster Now = MoveCluster(FBoundsRef(Scene.EmissiveBounds).Data[Change.Cluster], Offset);
-		float More = ClusterBringsTo(View, Point, Local, Roughness, Now) - ClusterBringsTo(View, Point, Local, Roughness, Change.Before);
-		if (More == 0.0) { continue; }
-		vec2 Known = EmitterSeen[I];
-		Sum += vec4(More * Known.x * ClusterColor(Scene, Now), More * More * (Known.y + ClusterError * ClusterError * Known.x * Known.x));
+		vec2 More = ClusterBringsTo(View, Point, Local, Roughness, Now) - ClusterBringsTo(View, Point, Local, Roughness, Change.Before);
+		if (More == vec2(0.0)) { continue; }
+		vec3 Color = ClusterColor(Scene, Now);
+		Sum.Diffuse += WeighCluster(More.x, Color, EmitterSeen[I]);
+		Sum.Specular += WeighCluster(More.y, Color, EmitterSeen[I]);
 	}
-	return Sum;
 }
 #endif
 
 const float OtherLampError = 4.0; // variance of how visible a new lamp is, in squares of what is expected
 
-vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uint Emitters, uvec2 Pixel, float Depth)
+FChange FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uint Emitters, uvec2 Pixel, float Depth)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Push.Channels, Pixel, Depth);
 	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Push.BackAlbedo, Pixel, 0.0); // what rays show is of emitters alone
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
-	vec4 Sum = vec4(0.0);
+	FChange Sum = FChange(vec4(0.0), vec4(0.0));
 	for (uint I = 0u; I < Count; ++I)
 	{
 		FLampChange Change = List.Data.Changes[Order[I]];
 		vec2 U = LocalNumbers(View, Pixel, Change.Light), Known = Seen[I];
 		FLightData Now = LoadLamp(Scene, Change.Light);
-		vec3 More = BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Now, U) - BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Change.Before, U);
+		FLobes After = BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Now, U);
+		FLobes Before = BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Change.Before, U);
 		if (((Now.Flags | Change.Before.Flags) & LIGHT_CASTS_SHADOW) == 0u) { Known = vec2(1.0, 0.0); }
 		if (Now.Number != Change.Before.Number) { Known.y += OtherLampError * Known.x * Known.x; } // what was seen is of the former lamp
-		float Brightness = Luminance(More);
-		Sum += vec4(More * Known.x, Brightness * Brightness * Known.y);
+		Sum.Diffuse += WeighLamp(After.Diffuse - Before.Diffuse, Known);
+		Sum.Specular += WeighLamp(After.Specular - Before.Specular, Known);
 	}
 #ifdef LOCAL_EMISSIVE
-	Sum += FollowEmitters(Scene, View, List, Emitters, Point, Local, Roughness);
+	FollowEmitters(Scene, View, List, Emitters, Point, Local, Roughness, Sum);
 #endif
-	Sum.w = sqrt(Sum.w); // a variance leaves the range of fp16 early
+	Sum.Diffuse.w = sqrt(Sum.Diffuse.w); // a variance leaves the range of fp16 early
+	Sum.Specular.w = sqrt(Sum.Specular.w);
 	return Sum;
+}
+
+void WriteChange(uint Output, uvec2 Pixel, vec4 Change)
+{
+	if (Output != NO_TEXTURE) { imageStore(Images[Output], ivec2(Pixel), clamp(Change, -MaxHalf, MaxHalf)); }
 }
 
 void main()
@@ -181,7 +221,9 @@ void main()
 	barrier();
 	if (IsOutsideView(View, Pixel)) { return; }
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
-	vec4 Change = vec4(0.0, 0.0, 0.0, bTooMany ? LAMP_CHANGE_UNKNOWN : 0.0);
+	FChange Change;
+	Change.Diffuse = Change.Specular = vec4(0.0, 0.0, 0.0, bTooMany ? LAMP_CHANGE_UNKNOWN : 0.0);
 	if (Depth > 0.0 && !bTooMany) { Change = FollowPixel(Scene, View, List, Count, Emitters, Pixel, Depth); }
-	imageStore(Images[Push.Output], ivec2(Pixel), clamp(Change, -MaxHalf, MaxHalf));
+	WriteChange(Push.OutDiffuse, Pixel, Change.Diffuse);
+	WriteChange(Push.OutSpecular, Pixel, Change.Specular);
 }

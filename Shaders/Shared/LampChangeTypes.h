@@ -53,8 +53,7 @@ struct FFollowLampsConstants
 	FAddress List;  // FLampChanges
 	FAddress Guide; // FTileGuide[], this frame's
 	uint Depth, Normals, BaseColor, Material; // sampled indices
-	uint Output;    // storage index: by how much the lobe has changed, over its albedo; and the standard deviation of that
-	uint bSpecular; // 1: of the specular lobe
+	uint OutDiffuse, OutSpecular; // storage indices, or NO_TEXTURE: by how much lobes have changed, over their albedo; and the standard deviation of that
 	uint Channels;  // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 	uint BackAlbedo; // sampled index, or NO_TEXTURE
 };

@@ -29,7 +29,7 @@ protected:
 		return GetWorld().AddLight(Light);
 	}
 	bool HasSecondRays() { return HasPass("ShadowSecondAsk") && HasPass("ShadowSecondRays"); }
-	bool FollowsLamps() { return HasPass("LocalDiffuseChange") && HasPass("LocalSpecularChange"); }
+	bool FollowsLamps() { return HasPass("LocalLightsChange"); }
 	/// Whether anything of lamps that change was made since the device was opened.
 	void ExpectNothingFollowed()
 	{

@@ -102,6 +102,7 @@ void AddTracePass(FFrameContext& Context, const FFogPass& Fog)
 		ReadLightCells(Builder, Cells, true);
 		if (Cells.Buffer.IsValid()) { Builder.Keep(Cells.Buffer); }
 		Builder.AllowAsync();
+		Builder.RunBeside(PathsGroup);
 		return [=](FPassContext& Pass) {
 			if (Cells.Buffer.IsValid()) { Cells.OfView->WriteGrid(Pass); }
 			const FFogShadowConstants C = MakeConstants(Pass, *Frame, Fog);

@@ -94,8 +94,8 @@ FGraphBuffer RequireList(FFrameContext& Context, IRTPipeline* LampList, IRTPipel
 	FMovedCasters& Noted = *Context.MovedCasters;
 	const uint32_t Slots = LampList ? Noted.GetLampRoom(Context.Scene.GetLights().GetSlotCount()) : 0;
 	const uint32_t Clusters = EmitterList ? Context.Scene.GetFacts().EmissiveClusters : 0;
-	const bool bLamps = Slots > 0 && Noted.HaveLampsChanged(Context.Scene, Context.View.DeltaSeconds);
-	const bool bEmitters = Clusters > 0 && Noted.HaveEmittersChanged(Context.Scene, Context.View.DeltaSeconds);
+	const bool bLamps = Slots > 0 && Noted.HaveLampsChanged(Context.Scene, Context.View);
+	const bool bEmitters = Clusters > 0 && Noted.HaveEmittersChanged(Context.Scene, Context.View);
 	FComparedTable Lamps{"ChangedLamps", LampList, offsetof(FLampChanges, Count), LAMP_CHANGES + 1, 0, {}};
 	FComparedTable Emitters{"ChangedEmitters", EmitterList, offsetof(FLampChanges, EmitterCount), 0, 0, {}};
 	if (FindKept(Context, "Lamps", Slots * sizeof(FLightData), bLamps, Lamps)) { Lamps.Count = Slots; }
@@ -109,14 +109,15 @@ FGraphBuffer RequireList(FFrameContext& Context, IRTPipeline* LampList, IRTPipel
 	return Changes.List;
 }
 
-FGraphTexture AddFollowPass(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FQueuedRays& Rays, FGraphBuffer List, ESignal Lobe, IRTPipeline* Pipeline)
+FLobes AddFollowPass(FFrameContext& Context, const FGBuffer& GBuffer, const FQueuedRays& Rays, FGraphBuffer List, IRTPipeline* Pipeline)
 {
 	const FFrameContext* const Frame = &Context;
-	const std::string Name = std::string(GetSignalInfo(Lobe).Pass) + "Change";
 	const FGraphTexture Channels = RequirePixelChannels(Context, GBuffer);
-	const FGraphTexture Change = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, Name.c_str());
-	Context.Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+	const auto Create = [&](const char* Name) {
+		return Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, Name);
+	};
+	const FLobes Change{Create("LocalDiffuseChange"), Create("LocalSpecularChange")};
+	Context.Graph.AddPass("LocalLightsChange", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, GBuffer.BaseColor, GBuffer.Material})
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
@@ -126,7 +127,7 @@ FGraphTexture AddFollowPass(
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
 		for (const FGraphBuffer Buffer : {List, Rays.Guide}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
-		Builder.Write(Change, ERTAccess::StorageWrite);
+		for (const FGraphTexture Texture : {Change.Diffuse, Change.Specular}) { Builder.WriteIfRead(Texture, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FFollowLampsConstants C{};
@@ -139,8 +140,8 @@ FGraphTexture AddFollowPass(
 			C.Material = GetSampledIndex(Pass, GBuffer.Material);
 			C.Channels = GetSampledIndex(Pass, Channels);
 			C.BackAlbedo = GetSampledIndex(Pass, GBuffer.BackAlbedo);
-			C.Output = GetStorageIndex(Pass, Change);
-			C.bSpecular = Lobe == ESignal::LocalSpecular ? 1u : 0u;
+			C.OutDiffuse = GetStorageIndex(Pass, Change.Diffuse);
+			C.OutSpecular = GetStorageIndex(Pass, Change.Specular);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -156,8 +157,8 @@ void ListLampChangeShaders(bool bLamps, const FSceneFacts& Facts, const FShaderD
 	Out.push_back(MakeFollowSource(Defines));
 }
 
-FGraphTexture AddLampChange(
-    FFrameContext& Context, const FGBuffer& GBuffer, bool bLamps, const FQueuedRays& Rays, const FShaderDefines& Defines, ESignal Lobe)
+FLobes AddLampChange(
+    FFrameContext& Context, const FGBuffer& GBuffer, bool bLamps, const FQueuedRays& Rays, const FShaderDefines& Defines)
 {
 	if (!Rays.Guide.IsValid() || !CVarRescale.GetOnRenderThread()) { return {}; }
 	const bool bEmitters = HasEmitters(Context.Facts);
@@ -166,7 +167,7 @@ FGraphTexture AddLampChange(
 	IRTPipeline* const Follow = RequireCompute(Context, MakeFollowSource(Defines));
 	if (!Follow || (bLamps && !Lamps) || (bEmitters && !Emitters)) { return {}; }
 	const FGraphBuffer Changes = RequireList(Context, Lamps, Emitters);
-	return Changes.IsValid() ? AddFollowPass(Context, GBuffer, Rays, Changes, Lobe, Follow) : FGraphTexture{};
+	return Changes.IsValid() ? AddFollowPass(Context, GBuffer, Rays, Changes, Follow) : FLobes{};
 }
 
 } // namespace Lantern

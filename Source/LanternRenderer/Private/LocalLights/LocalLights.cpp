@@ -33,11 +33,13 @@ TRTConsoleVariable<bool> CVarHalf("r.RT.Lights.HalfResolution", false,
     "Finds and filters light of local lights for one pixel of each 2 x 2. The others take it along surfaces. r.RT.Lights.Rate is then of "
     "these pixels. Does not count where an engine reads the light mask.");
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
-    "The filter of diffuse light looks for changes on surfaces that move, and where a moved caster may shadow a lamp. For 0.13 s "
-    "after a lamp has changed, it looks everywhere. If off, it always looks for them in the picture, and takes some noise for change.");
+    "The filter looks for changes on surfaces that move, and where a moved caster may shadow a lamp. For 0.13 s after a lamp has changed, "
+    "it looks everywhere. It does after the camera has gone elsewhere, for highlights, and after anything has moved beside emissive "
+    "triangles. If off, it always looks for them in the picture, and takes some noise for change.");
 TRTConsoleVariable<bool> CVarCasters(
     "r.RT.Debug.Lights.Casters", true, "Planted fault. If off, rays to local lights meet what casts from the sun.");
 const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 2, .bColor = true});
+constexpr float KnownChangesHistory = 2.0f; // Docs/Performance.md, "Highlights at rest"
 
 /// The light mask has room for the most lights that can have rays each.
 uint32_t GetExact(const FSceneFacts& Facts)
@@ -138,6 +140,17 @@ const FLobes* RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 	return &*Context.LocalLobes;
 }
 
+/// The context has the rays.
+FLobes RequireChange(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	if (!Context.LocalChange)
+	{
+		const FShaderDefines Defines = MakeLocalDefines(Context.Facts, GetExact(Context.Facts));
+		Context.LocalChange = AddLampChange(Context, GBuffer, AreLampsChosen(Context.Facts), Context.ShadowRays->Traced, Defines);
+	}
+	return *Context.LocalChange;
+}
+
 /// A lobe of the frame that has the rays.
 FGraphTexture AddTracedLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal)
 {
@@ -151,16 +164,17 @@ FGraphTexture AddTracedLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESi
 	Inputs.Name = GetSignalInfo(Signal).Pass;
 	Inputs.Signal = Lobe;
 	if (Signal == FindMoreLobe(Context.Signals)) { Inputs.History = Context.ShadowRays->LocalHistory; }
-	// A highlight moves with the camera, and diffuse light does not.
-	const bool bLampsAlone = !HasEmitters(Context.Facts); // nobody counts what becomes of surfaces
-	const bool bStays = Signal == ESignal::LocalDiffuse && bLampsAlone && CVarKnownChanges.GetOnRenderThread() && !Context.Facts.bLightMask;
-	if (bStays && !FindLampShadowChanges(Context, Inputs.Changes)) { return {}; }
+	const FMovedCasters::FLampWishes Wishes{Signal == ESignal::LocalSpecular, HasEmitters(Context.Facts)};
+	const bool bKnown = CVarKnownChanges.GetOnRenderThread() && !Context.Facts.bLightMask;
+	if (bKnown && !FindLampChanges(Context, Wishes, Inputs.Changes)) { return {}; }
 	if (AreChangesFollowed(Context.Facts))
 	{
-		const FShaderDefines Defines = MakeLocalDefines(Context.Facts, GetExact(Context.Facts));
-		Inputs.Change = AddLampChange(Context, GBuffer, AreLampsChosen(Context.Facts), Context.ShadowRays->Traced, Defines, Signal);
+		const FLobes Change = RequireChange(Context, GBuffer);
+		Inputs.Change = Signal == ESignal::LocalDiffuse ? Change.Diffuse : Change.Specular;
 	}
-	return AddDenoise(Context, GBuffer, Inputs, Denoise);
+	FDenoiseSettings Settings = Denoise.Get();
+	if (Inputs.Changes.bKnown) { Settings.HistorySeconds *= KnownChangesHistory; }
+	return AddDenoise(Context, GBuffer, Inputs, Settings);
 }
 
 bool IsPair(const FSignalRequests& Requests) { return IsMade(ESignal::LocalDiffuse, Requests) && IsMade(ESignal::LocalSpecular, Requests); }

@@ -69,9 +69,9 @@ bool FMovedCasters::HoldsFor(const FSunState& Before, const FSunState& Now)
 	       Before.Rays == Now.Rays;
 }
 
-FMovedCasters::FFound FMovedCasters::Find(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
+FMovedCasters::FFound FMovedCasters::Find(FRTScene& Scene, const FSunRays& Rays, const FView& View)
 {
-	Note(Scene, Rays, DeltaSeconds);
+	Note(Scene, Rays, View);
 	FFound Found;
 	Found.Turn = Turn;
 	Found.bOtherSun = !Last.bValid || !HoldsFor(Last.Sun, Next.Sun);
@@ -82,9 +82,9 @@ FMovedCasters::FFound FMovedCasters::Find(FRTScene& Scene, const FSunRays& Rays,
 	return Found;
 }
 
-FMovedCasters::FRecent FMovedCasters::FindRecent(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
+FMovedCasters::FRecent FMovedCasters::FindRecent(FRTScene& Scene, const FSunRays& Rays, const FView& View)
 {
-	Note(Scene, Rays, DeltaSeconds);
+	Note(Scene, Rays, View);
 	FRecent Found;
 	if (Recent.empty()) { return Found; } // nothing was kept before
 	for (const FState& State : Recent) { Found.bAnywhere |= !HoldsFor(State.Sun, Next.Sun); }
@@ -92,20 +92,26 @@ FMovedCasters::FRecent FMovedCasters::FindRecent(FRTScene& Scene, const FSunRays
 	return Found;
 }
 
-FMovedCasters::FRecent FMovedCasters::FindRecentOfLamps(FRTScene& Scene, float DeltaSeconds)
+FMovedCasters::FRecent FMovedCasters::FindRecentOfLamps(FRTScene& Scene, const FLampWishes& Wishes, const FView& View)
 {
-	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); } // nobody asks for the sun
+	if (!Next.bValid) { Note(Scene, {}, View); } // nobody asks for the sun
 	FRecent Found;
 	if (Recent.empty()) { return Found; }
 	const FState& Before = Recent.front();
 	Found.bAnywhere = Before.Sun.Scene != Next.Sun.Scene || Before.Lights != Next.Lights;
+	if (Wishes.bHighlights)
+	{
+		Found.bAnywhere |= std::ranges::any_of(Recent, [&](const FState& State) { return State.Eye != Next.Eye; });
+	}
+	if (Wishes.bEmitters) { Found.bAnywhere |= Before.Emitters != Next.Emitters || Before.Appearance != Next.Appearance; }
 	AddRecentMoves(Scene, Found);
+	if (Wishes.bEmitters && !Found.Casters.empty()) { return {.bAnywhere = true}; } // nobody knows which emitters they hide
 	return Found;
 }
 
-FMovedCasters::FRecent FMovedCasters::FindMovers(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds)
+FMovedCasters::FRecent FMovedCasters::FindMovers(FRTScene& Scene, const FView& View)
 {
-	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); }
+	if (!Next.bValid) { Note(Scene, {}, View); }
 	FRecent Found;
 	if (Recent.empty()) { return Found; }
 	const FState& Before = Recent.front();
@@ -122,6 +128,7 @@ FMovedCasters::FRecent FMovedCasters::FindMovers(FRTScene& Scene, const glm::dve
 	}
 	if (Movers.size() > SETTLED_MOST_CASTERS)
 	{
+		const glm::dvec3 Camera = MakeGatherView(View).Position;
 		const auto Hides = [&](const FCasterChange& Mover) {
 			const glm::dvec3 Away = Mover.To - Camera;
 			return (Mover.Emission > 0.0 ? ShiningFirst : 1.0) * Mover.Changed * Mover.Radius * Mover.Radius /
@@ -143,15 +150,15 @@ void FMovedCasters::AddRecentMoves(FRTScene& Scene, FRecent& InOut) const
 	InOut.Casters = Convert(Scene, Moved);
 }
 
-bool FMovedCasters::HaveLampsChanged(FRTScene& Scene, float DeltaSeconds)
+bool FMovedCasters::HaveLampsChanged(FRTScene& Scene, const FView& View)
 {
-	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); }
+	if (!Next.bValid) { Note(Scene, {}, View); }
 	return Recent.empty() || Recent.back().Sun.Scene != Next.Sun.Scene || Recent.back().Lights != Next.Lights;
 }
 
-bool FMovedCasters::HaveEmittersChanged(FRTScene& Scene, float DeltaSeconds)
+bool FMovedCasters::HaveEmittersChanged(FRTScene& Scene, const FView& View)
 {
-	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); }
+	if (!Next.bValid) { Note(Scene, {}, View); }
 	return Recent.empty() || Recent.back().Sun.Scene != Next.Sun.Scene || Recent.back().Emitters != Next.Emitters;
 }
 
@@ -163,10 +170,11 @@ uint32_t FMovedCasters::GetLampRoom(uint32_t Slots)
 	return LampRoom;
 }
 
-void FMovedCasters::Note(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
+void FMovedCasters::Note(FRTScene& Scene, const FSunRays& Rays, const FView& View)
 {
-	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, Scene.GetLights().GetChangeCount(),
-	    Scene.GetEmissiveChangeCount(), Scene.GetAppearanceChanges().GetObjects().GetCount(), 0.0};
+	const FEye Eye{View.Position, View.GetWindow().bOrthographic ? View.Forward : glm::vec3(0)};
+	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, View.DeltaSeconds, Scene.GetLights().GetChangeCount(),
+	    Scene.GetEmissiveChangeCount(), Scene.GetAppearanceChanges().GetObjects().GetCount(), 0.0, Eye};
 }
 
 std::vector<FMovedCaster> FMovedCasters::Convert(FRTScene& Scene, const std::vector<FCasterChange>& Changes)
@@ -185,17 +193,17 @@ bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChan
 {
 	// What is in a host's own map, nobody tells.
 	if (!CVarKnownChanges.GetOnRenderThread() || Context.Facts.bHostShadow) { return true; }
-	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecent(Context.Scene, Rays, Context.View.DeltaSeconds);
+	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecent(Context.Scene, Rays, Context.View);
 	Out.bKnown = !Found.bAnywhere;
 	Out.CasterCount = static_cast<uint32_t>(Found.Casters.size());
 	Out.Spread = std::sqrt(2.0f * GetSunOneMinusCos(Rays)) + 1.0e-3f;
 	return WriteCasters(Context, Found.Casters, Out.Casters);
 }
 
-bool FindLampShadowChanges(FFrameContext& Context, FShadowChanges& Out)
+bool FindLampChanges(FFrameContext& Context, const FMovedCasters::FLampWishes& Wishes, FShadowChanges& Out)
 {
 	constexpr uint64_t MostPairs = 4096; // 64 for each thread of a tile
-	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecentOfLamps(Context.Scene, Context.View.DeltaSeconds);
+	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecentOfLamps(Context.Scene, Wishes, Context.View);
 	const uint64_t Pairs = uint64_t(Found.Casters.size()) * Context.Scene.GetLights().GetSlotCount();
 	Out.bKnown = !Found.bAnywhere && Pairs <= MostPairs;
 	if (!Out.bKnown) { return true; }
@@ -207,8 +215,7 @@ const FMoversOfFrame& RequireMovers(FFrameContext& Context)
 {
 	FMoversOfFrame& Movers = Context.World->Movers;
 	if (std::exchange(Movers.bAsked, true)) { return Movers; }
-	const glm::dvec3 Camera = MakeGatherView(Context.View).Position;
-	const FMovedCasters::FRecent Found = Context.MovedCasters->FindMovers(Context.Scene, Camera, Context.View.DeltaSeconds);
+	const FMovedCasters::FRecent Found = Context.MovedCasters->FindMovers(Context.Scene, Context.View);
 	if (WriteCasters(Context, Found.Casters, Movers.Casters)) { Movers.Count = static_cast<uint32_t>(Found.Casters.size()); }
 	return Movers;
 }

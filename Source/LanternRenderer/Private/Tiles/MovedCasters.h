@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "LanternScene/Scene/Scene.h"
+#include "LanternRenderer/View.h"
 #include "Rays/RayQueue.h"
 #include "SettledTypes.h"
 
@@ -24,8 +25,8 @@ public:
 		/// Casters that moved, came, went or were deformed, at most SETTLED_MOST_CASTERS. Empty with bAnywhere.
 		std::vector<FMovedCaster> Casters;
 	};
-	/// Rays: how the sun's rays are traced in this frame. DeltaSeconds: since the frame before. After the scene's BeginUpdate.
-	FFound Find(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
+	/// Rays: how the sun's rays are traced in this frame. View: of this frame. After the scene's BeginUpdate.
+	FFound Find(FRTScene& Scene, const FSunRays& Rays, const FView& View);
 
 	/// How long FindRecent reports a change, seconds. A filter needs some frames to see that its history is wrong.
 	static constexpr double RecentSeconds = 0.13;
@@ -35,16 +36,22 @@ public:
 		std::vector<FMovedCaster> Casters; ///< empty with bAnywhere
 	};
 	/// Finds what may have changed in the last RecentSeconds. As Find.
-	FRecent FindRecent(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
-	/// As FindRecent, for the shadows of lamps. A lamp that has changed may have changed all.
-	FRecent FindRecentOfLamps(FRTScene& Scene, float DeltaSeconds);
-	/// Finds the objects that have moved or look otherwise, whatever has changed of lights: one caster for each of either, and those that hide or shine most of what the camera
-	/// sees if they are more than SETTLED_MOST_CASTERS. Camera: in the world. As FindRecent.
-	FRecent FindMovers(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds);
+	FRecent FindRecent(FRTScene& Scene, const FSunRays& Rays, const FView& View);
+	/// What of local light has to hold its place.
+	struct FLampWishes
+	{
+		bool bHighlights = false; ///< move with the camera's place; turns leave them where they are
+		bool bEmitters = false;   ///< there are emissive triangles: what moves or looks otherwise may have changed all
+	};
+	/// As FindRecent, for the light of lamps. A lamp that has changed may have changed all.
+	FRecent FindRecentOfLamps(FRTScene& Scene, const FLampWishes& Wishes, const FView& View);
+	/// Finds the objects that have moved or look otherwise, whatever has changed of lights: one caster for each of either. If they are more
+	/// than SETTLED_MOST_CASTERS, finds those that hide or shine most of what the camera sees. As FindRecent.
+	FRecent FindMovers(FRTScene& Scene, const FView& View);
 	/// Returns whether a lamp has changed since the view's last frame, or there is none. As Find.
-	bool HaveLampsChanged(FRTScene& Scene, float DeltaSeconds);
+	bool HaveLampsChanged(FRTScene& Scene, const FView& View);
 	/// As HaveLampsChanged, for emissive triangles.
-	bool HaveEmittersChanged(FRTScene& Scene, float DeltaSeconds);
+	bool HaveEmittersChanged(FRTScene& Scene, const FView& View);
 	/// Returns how many slots of lights a view notes: Slots at least, and seldom another number than in the frame before.
 	uint32_t GetLampRoom(uint32_t Slots);
 	/// Counts the view's submitted frames.
@@ -60,6 +67,13 @@ private:
 		glm::dvec3 Direction{0}; ///< unit length
 		FSunRays Rays;
 	};
+	/// From where surfaces are seen.
+	struct FEye
+	{
+		glm::dvec3 Position{0};
+		glm::vec3 Direction{0}; ///< orthographic views only
+		friend bool operator==(const FEye&, const FEye&) = default;
+	};
 	struct FState
 	{
 		FSunState Sun;
@@ -70,12 +84,13 @@ private:
 		uint64_t Emitters = 0;   ///< FRTScene::GetEmissiveChangeCount
 		uint64_t Appearance = 0; ///< FAppearanceChanges::GetObjects
 		double Time = 0.0;       ///< of the view's submitted frames, seconds
+		FEye Eye;
 	};
 	static FSunState MakeSunState(FRTScene& Scene, const FSunRays& Rays);
 	static bool HoldsFor(const FSunState& Before, const FSunState& Now);
 	static std::vector<FMovedCaster> Convert(FRTScene& Scene, const std::vector<FCasterChange>& Changes);
 	void AddRecentMoves(FRTScene& Scene, FRecent& InOut) const;
-	void Note(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
+	void Note(FRTScene& Scene, const FSunRays& Rays, const FView& View);
 
 	FState Last, Next;
 	std::deque<FState> Recent; ///< of the last frames, the oldest first; the last one is Last
@@ -94,8 +109,8 @@ struct FShadowChanges
 };
 /// r.RT.Shadow.KnownChanges. False: an error, which the context has.
 bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChanges& Out);
-/// As FindShadowChanges, for lamps. Many casters of many lamps count as anywhere, since each tile looks at all of either.
-bool FindLampShadowChanges(FFrameContext& Context, FShadowChanges& Out);
+/// As FindShadowChanges, for the light of lamps. Many casters of many lamps count as anywhere, since each tile looks at all of either.
+bool FindLampChanges(FFrameContext& Context, const FMovedCasters::FLampWishes& Wishes, FShadowChanges& Out);
 /// Finds and writes the frame's movers. None: nothing has moved, nobody knows what has, or an error, which the context has.
 const FMoversOfFrame& RequireMovers(FFrameContext& Context);
 /// Writes casters where this frame's shaders read them. OutAddress: 0 if there are none. False: an error, which the context has.

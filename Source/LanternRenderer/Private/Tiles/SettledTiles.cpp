@@ -82,7 +82,7 @@ FSettledTiles FindSettledTiles(FFrameContext& Context, const FGBuffer& GBuffer, 
 	FSettledTiles Settled{.Rates = Rates};
 	const bool bAdaptive = Rates.bAdaptive && bFiltered;
 	if (!bAdaptive && Rates.DistanceMetres <= 0.0f) { return Settled; }
-	const FMovedCasters::FFound Found = Context.MovedCasters->Find(Context.Scene, Sun, Context.View.DeltaSeconds);
+	const FMovedCasters::FFound Found = Context.MovedCasters->Find(Context.Scene, Sun, Context.View);
 	Settled.Values.bAnywhere = Found.bAnywhere ? 1u : 0u;
 	Settled.Values.Turn = Found.Turn;
 	Settled.Values.RateDistance = Rates.DistanceMetres;

@@ -204,6 +204,7 @@ struct FPixelsOfFrame
 	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
 	bool bShadowRaysAsked = false;
 	std::optional<FLobes> LocalLobes;              ///< of local lights: as traced, or the half frame's, filtered; nullopt: not made so far
+	std::optional<FLobes> LocalChange;             ///< by how much they have changed as lights have; nullopt: not found so far
 	std::optional<FLobes> IndirectLobes;           ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
 	std::optional<FGraphTexture> ReflectedLight;   ///< the signal; nullopt: nobody has asked so far
 	std::optional<FTransmission> Transmission;     ///< nullopt: nobody has asked so far
