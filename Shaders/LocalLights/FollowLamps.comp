@@ -57,7 +57,8 @@ struct FChange
 	vec4 Diffuse, Specular;
 };
 
-FLobes BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, uint Number, FLightData Light, vec2 U)
+FLobes BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, uint Number,
+                FLightData Light, vec2 U)
 {
 	const FLobes None = FLobes(vec3(0.0), vec3(0.0));
 	if (LightType(Light) == LIGHT_NONE || !SharesChannel(Light, Point.Channels)) { return None; }
@@ -146,7 +147,8 @@ vec4 WeighCluster(float More, vec3 Color, vec2 Known)
 }
 
 // Adds what emissive triangles have changed.
-void FollowEmitters(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, FLocalPoint Point, FLocalBrdf Local, float Roughness, inout FChange Sum)
+void FollowEmitters(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, FLocalPoint Point, FLocalBrdf Local,
+                    float Roughness, inout FChange Sum)
 {
 	for (uint I = 0u; I < Count; ++I)
 	{

@@ -90,9 +90,9 @@ FStabilityFault MakeBlindLampsFault(const FMethod&)
 /// History that is kept for a minute, never compared with what is there now, and never told.
 FStabilityFault MakeStaleFault(const FMethod&)
 {
-	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.Debug.Lights.Rescale", "0"},
-	                     {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"}, {"r.RT.GI.HistorySeconds", "60"},
-	                     {"r.RT.Debug.GI.Events", "0"}, {"r.RT.Reflections.HistorySeconds", "60"}}),
+	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"},
+	                     {"r.RT.Debug.Lights.Rescale", "0"}, {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"},
+	                     {"r.RT.GI.HistorySeconds", "60"}, {"r.RT.Debug.GI.Events", "0"}, {"r.RT.Reflections.HistorySeconds", "60"}}),
 	    "");
 }
 

@@ -157,8 +157,7 @@ void ListLampChangeShaders(bool bLamps, const FSceneFacts& Facts, const FShaderD
 	Out.push_back(MakeFollowSource(Defines));
 }
 
-FLobes AddLampChange(
-    FFrameContext& Context, const FGBuffer& GBuffer, bool bLamps, const FQueuedRays& Rays, const FShaderDefines& Defines)
+FLobes AddLampChange(FFrameContext& Context, const FGBuffer& GBuffer, bool bLamps, const FQueuedRays& Rays, const FShaderDefines& Defines)
 {
 	if (!Rays.Guide.IsValid() || !CVarRescale.GetOnRenderThread()) { return {}; }
 	const bool bEmitters = HasEmitters(Context.Facts);

@@ -14,7 +14,6 @@ void ListLampChangeShaders(bool bLamps, const FSceneFacts& Facts, const FShaderD
 /// triangles are followed. Invalid: nothing has changed, there is no last frame, or shaders are being compiled, or an error, which the
 /// context then has. Call it once for a frame. Rays: with Guide; in tiles without one nothing is known. Reads Depth, Normals, BaseColor
 /// and Material of the G-buffer.
-FLobes AddLampChange(
-    FFrameContext& Context, const FGBuffer& GBuffer, bool bLamps, const FQueuedRays& Rays, const FShaderDefines& Defines);
+FLobes AddLampChange(FFrameContext& Context, const FGBuffer& GBuffer, bool bLamps, const FQueuedRays& Rays, const FShaderDefines& Defines);
 
 } // namespace Lantern

@@ -49,7 +49,7 @@ bool FindHistory(FFrameContext& Context, const FGBuffer& GBuffer, FMaskPass& InO
 	};
 	if (!Find("LightMaskMeans", ERTFormat::RG32_UINT, InOut.Means)) { return false; }
 	if (!Find("LightMaskCounts", ERTFormat::R32_UINT, InOut.Counts)) { return false; }
-	if (!FindLampChanges(Context, {}, InOut.Changes)) { return false; }
+	if (!FindLampChanges(Context, false, InOut.Changes)) { return false; }
 	if (!RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return true; }
 	InOut.bSurface = true;
 	InOut.bReproject = Context.Surface.Previous.IsValid() && InOut.Means.Previous.IsValid() && InOut.Counts.Previous.IsValid() &&

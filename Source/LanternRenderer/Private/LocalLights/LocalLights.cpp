@@ -34,12 +34,12 @@ TRTConsoleVariable<bool> CVarHalf("r.RT.Lights.HalfResolution", false,
     "these pixels. Does not count where an engine reads the light mask.");
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
     "The filter looks for changes on surfaces that move, and where a moved caster may shadow a lamp. For 0.13 s after a lamp has changed, "
-    "it looks everywhere. It does after the camera has gone elsewhere, for highlights, and after anything has moved beside emissive "
-    "triangles. If off, it always looks for them in the picture, and takes some noise for change.");
+    "or after the camera has gone elsewhere if it is about highlights, it looks everywhere. Where nothing has changed for long enough, its "
+    "history lasts twice as long. If off, or beside emissive triangles, it always looks in the picture, and takes some noise for change.");
 TRTConsoleVariable<bool> CVarCasters(
     "r.RT.Debug.Lights.Casters", true, "Planted fault. If off, rays to local lights meet what casts from the sun.");
 const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 2, .bColor = true});
-constexpr float KnownChangesHistory = 2.0f; // Docs/Performance.md, "Highlights at rest"
+constexpr float QuietHistory = 2.0f; // Docs/Performance.md, "Highlights at rest"
 
 /// The light mask has room for the most lights that can have rays each.
 uint32_t GetExact(const FSceneFacts& Facts)
@@ -164,16 +164,17 @@ FGraphTexture AddTracedLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESi
 	Inputs.Name = GetSignalInfo(Signal).Pass;
 	Inputs.Signal = Lobe;
 	if (Signal == FindMoreLobe(Context.Signals)) { Inputs.History = Context.ShadowRays->LocalHistory; }
-	const FMovedCasters::FLampWishes Wishes{Signal == ESignal::LocalSpecular, HasEmitters(Context.Facts)};
-	const bool bKnown = CVarKnownChanges.GetOnRenderThread() && !Context.Facts.bLightMask;
-	if (bKnown && !FindLampChanges(Context, Wishes, Inputs.Changes)) { return {}; }
+	const bool bLampsAlone = !HasEmitters(Context.Facts); // nobody counts what becomes of surfaces
+	const bool bKnown = bLampsAlone && CVarKnownChanges.GetOnRenderThread() && !Context.Facts.bLightMask;
+	if (bKnown && !FindLampChanges(Context, Signal == ESignal::LocalSpecular, Inputs.Changes)) { return {}; }
 	if (AreChangesFollowed(Context.Facts))
 	{
 		const FLobes Change = RequireChange(Context, GBuffer);
 		Inputs.Change = Signal == ESignal::LocalDiffuse ? Change.Diffuse : Change.Specular;
 	}
 	FDenoiseSettings Settings = Denoise.Get();
-	if (Inputs.Changes.bKnown) { Settings.HistorySeconds *= KnownChangesHistory; }
+	const double Enough = double(QuietHistory * Settings.HistorySeconds); // for what a change has left to be gone
+	if (Inputs.Changes.bKnown && Inputs.Changes.QuietSeconds >= Enough) { Settings.HistorySeconds *= QuietHistory; }
 	return AddDenoise(Context, GBuffer, Inputs, Settings);
 }
 

@@ -16,6 +16,8 @@ namespace
 {
 TRTConsoleVariable<bool> CVarCapsules(
     "r.RT.Debug.Shadow.Capsules", true, "Planted fault. Off: r.RT.Shadow.Adaptive and the filter are not told which casters moved.");
+TRTConsoleVariable<bool> CVarEye(
+    "r.RT.Debug.Lights.Eye", true, "Planted fault. Off: the filter of highlights is not told that the camera has gone elsewhere.");
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Shadow.KnownChanges", true,
     "The filter looks for changes of the sun's shadows only where casters or surfaces moved, as the scene knows. If off, it looks for "
     "them everywhere in the picture, and takes some noise for change.");
@@ -92,20 +94,20 @@ FMovedCasters::FRecent FMovedCasters::FindRecent(FRTScene& Scene, const FSunRays
 	return Found;
 }
 
-FMovedCasters::FRecent FMovedCasters::FindRecentOfLamps(FRTScene& Scene, const FLampWishes& Wishes, const FView& View)
+FMovedCasters::FRecent FMovedCasters::FindRecentOfLamps(FRTScene& Scene, bool bHighlights, const FView& View)
 {
 	if (!Next.bValid) { Note(Scene, {}, View); } // nobody asks for the sun
 	FRecent Found;
 	if (Recent.empty()) { return Found; }
 	const FState& Before = Recent.front();
+	const bool bLooksAtEye = bHighlights && CVarEye.GetOnRenderThread();
 	Found.bAnywhere = Before.Sun.Scene != Next.Sun.Scene || Before.Lights != Next.Lights;
-	if (Wishes.bHighlights)
+	if (bLooksAtEye)
 	{
 		Found.bAnywhere |= std::ranges::any_of(Recent, [&](const FState& State) { return State.Eye != Next.Eye; });
 	}
-	if (Wishes.bEmitters) { Found.bAnywhere |= Before.Emitters != Next.Emitters || Before.Appearance != Next.Appearance; }
 	AddRecentMoves(Scene, Found);
-	if (Wishes.bEmitters && !Found.Casters.empty()) { return {.bAnywhere = true}; } // nobody knows which emitters they hide
+	Found.QuietSeconds = Time - (bLooksAtEye ? std::max(ChangeTime, EyeTime) : ChangeTime);
 	return Found;
 }
 
@@ -200,12 +202,13 @@ bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChan
 	return WriteCasters(Context, Found.Casters, Out.Casters);
 }
 
-bool FindLampChanges(FFrameContext& Context, const FMovedCasters::FLampWishes& Wishes, FShadowChanges& Out)
+bool FindLampChanges(FFrameContext& Context, bool bHighlights, FShadowChanges& Out)
 {
 	constexpr uint64_t MostPairs = 4096; // 64 for each thread of a tile
-	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecentOfLamps(Context.Scene, Wishes, Context.View);
+	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecentOfLamps(Context.Scene, bHighlights, Context.View);
 	const uint64_t Pairs = uint64_t(Found.Casters.size()) * Context.Scene.GetLights().GetSlotCount();
 	Out.bKnown = !Found.bAnywhere && Pairs <= MostPairs;
+	Out.QuietSeconds = Found.QuietSeconds;
 	if (!Out.bKnown) { return true; }
 	Out.CasterCount = static_cast<uint32_t>(Found.Casters.size());
 	return WriteCasters(Context, Found.Casters, Out.Casters);
@@ -242,6 +245,12 @@ void FMovedCasters::EndFrame(bool bSubmitted)
 	if (!Last.bValid) { return Recent.clear(); }
 	Time += double(Last.DeltaSeconds);
 	Last.Time = Time;
+	if (!Recent.empty())
+	{
+		const FState& Before = Recent.back();
+		if (Before.Sun.Scene != Last.Sun.Scene || Before.Changes != Last.Changes || Before.Lights != Last.Lights) { ChangeTime = Time; }
+		if (Before.Eye != Last.Eye) { EyeTime = Time; }
+	}
 	while (!Recent.empty() && Time - Recent.front().Time > RecentSeconds) { Recent.pop_front(); }
 	Recent.push_back(Last);
 }

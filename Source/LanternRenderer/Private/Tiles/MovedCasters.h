@@ -2,11 +2,12 @@
 // (FCasterChanges); nothing is guessed from pictures.
 #pragma once
 
+#include <cmath>
 #include <deque>
 #include <vector>
 
-#include "LanternScene/Scene/Scene.h"
 #include "LanternRenderer/View.h"
+#include "LanternScene/Scene/Scene.h"
 #include "Rays/RayQueue.h"
 #include "SettledTypes.h"
 
@@ -34,17 +35,13 @@ public:
 	{
 		bool bAnywhere = false;            ///< any shadow may have moved
 		std::vector<FMovedCaster> Casters; ///< empty with bAnywhere
+		double QuietSeconds = 0.0;         ///< of lamps: since when nothing has changed; infinite: never in the view's time
 	};
 	/// Finds what may have changed in the last RecentSeconds. As Find.
 	FRecent FindRecent(FRTScene& Scene, const FSunRays& Rays, const FView& View);
-	/// What of local light has to hold its place.
-	struct FLampWishes
-	{
-		bool bHighlights = false; ///< move with the camera's place; turns leave them where they are
-		bool bEmitters = false;   ///< there are emissive triangles: what moves or looks otherwise may have changed all
-	};
-	/// As FindRecent, for the light of lamps. A lamp that has changed may have changed all.
-	FRecent FindRecentOfLamps(FRTScene& Scene, const FLampWishes& Wishes, const FView& View);
+	/// As FindRecent, for the light of lamps. A lamp that has changed may have changed all. bHighlights: they move with the camera's place, and
+	/// stay where they are when it turns.
+	FRecent FindRecentOfLamps(FRTScene& Scene, bool bHighlights, const FView& View);
 	/// Finds the objects that have moved or look otherwise, whatever has changed of lights: one caster for each of either. If they are more
 	/// than SETTLED_MOST_CASTERS, finds those that hide or shine most of what the camera sees. As FindRecent.
 	FRecent FindMovers(FRTScene& Scene, const FView& View);
@@ -97,6 +94,7 @@ private:
 	uint32_t Turn = 0;
 	uint32_t LampRoom = 0;
 	double Time = 0.0;
+	double ChangeTime = -INFINITY, EyeTime = -INFINITY; ///< of the last changes of casters or lamps, and of the camera's place
 };
 
 /// Where shadows of the sun, or of lamps, may have changed in the last frames.
@@ -105,12 +103,14 @@ struct FShadowChanges
 	bool bKnown = false;  ///< false: anywhere, and what needs to know looks at the picture
 	uint64_t Casters = 0; ///< FMovedCaster[CasterCount], of this frame; with bKnown
 	uint32_t CasterCount = 0;
-	float Spread = 0.0f; ///< of a half shadow's border, metres per metre; not of lamps
+	float Spread = 0.0f;       ///< of a half shadow's border, metres per metre; not of lamps
+	double QuietSeconds = 0.0; ///< see FMovedCasters::FRecent
 };
 /// r.RT.Shadow.KnownChanges. False: an error, which the context has.
 bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChanges& Out);
 /// As FindShadowChanges, for the light of lamps. Many casters of many lamps count as anywhere, since each tile looks at all of either.
-bool FindLampChanges(FFrameContext& Context, const FMovedCasters::FLampWishes& Wishes, FShadowChanges& Out);
+/// bHighlights: see FMovedCasters::FindRecentOfLamps.
+bool FindLampChanges(FFrameContext& Context, bool bHighlights, FShadowChanges& Out);
 /// Finds and writes the frame's movers. None: nothing has moved, nobody knows what has, or an error, which the context has.
 const FMoversOfFrame& RequireMovers(FFrameContext& Context);
 /// Writes casters where this frame's shaders read them. OutAddress: 0 if there are none. False: an error, which the context has.
