@@ -130,6 +130,9 @@ TEST_F(FStabilityTest, WrongUseIsNamed)
 	const FProgramRun Method = RunProgram({"stability", "--method", "magic"});
 	EXPECT_EQ(Method.Status, 2);
 	EXPECT_THAT(Method.Err, HasSubstr("SunShadowQuery"));
+	const FProgramRun Unmeasured = RunProgram({"stability", "--case", "27", "--method", "LocalLightsHalfFiltered"});
+	EXPECT_EQ(Unmeasured.Status, 2);
+	EXPECT_THAT(Unmeasured.Err, HasSubstr("no case that is run measures it"));
 	for (const char* const Wrong :
 	    {"25 | sun shadow, query", "25 | sun shadow, query | pixels | chance decides", "25 | sun shadow, query | pixels | 0.5 | no band",
 	        "25 | sun shadow, query | pixels | 0.5 +- 0 | no band", "~25 | sun shadow, query | pixels | 0.5 +- 0.1 | may or may not"})

@@ -48,6 +48,16 @@ void FStabilityOptions::AddTo(CLI::App& App)
 
 namespace
 {
+bool Measures(const FStabilityCase& Case, const FMethod& Method)
+{
+	return Case.Measure && std::find(Case.Signals.begin(), Case.Signals.end(), Method.Signal) != Case.Signals.end();
+}
+
+bool IsCaseWanted(const FStabilityCase& Case, const FStabilityOptions& Options)
+{
+	return Options.Cases.empty() || std::count(Options.Cases.begin(), Options.Cases.end(), Case.Number) > 0;
+}
+
 /// Runs cases for methods, and keeps their rows.
 class FStabilityRun
 {
@@ -109,7 +119,7 @@ FRTStatus FStabilityRun::Run()
 	std::vector<const FStabilityCase*> Wanted;
 	for (const FStabilityCase& Case : GetStabilityCases())
 	{
-		if (Options.Cases.empty() || std::count(Options.Cases.begin(), Options.Cases.end(), Case.Number)) { Wanted.push_back(&Case); }
+		if (IsCaseWanted(Case, Options)) { Wanted.push_back(&Case); }
 	}
 	for (size_t I = 0; I < Wanted.size(); ++I)
 	{
@@ -125,7 +135,7 @@ FRTStatus FStabilityRun::RunCase(const FStabilityCase& Case)
 	bool bAny = false;
 	for (const FMethod& Method : Methods.Methods)
 	{
-		if (!Case.Measure || std::find(Case.Signals.begin(), Case.Signals.end(), Method.Signal) == Case.Signals.end()) { continue; }
+		if (!Measures(Case, Method)) { continue; }
 		bAny = true;
 		if (!IsWanted(Method)) { continue; }
 		if (FRTStatus S = RunMethod(Case, &Method); !S) { return S; }
@@ -264,14 +274,23 @@ int ListCases()
 	return ExitDone;
 }
 
-/// Config/Methods.ini, and whether --method names are in it.
+/// Config/Methods.ini, and whether --method names are in it and measured by a case: what nothing measures would seem to hold.
 int LoadWantedMethods(const FStabilityOptions& Options, FMethods& Out)
 {
 	Out = LoadMethods(FindPluginFolders().Config + "/Methods.ini");
 	for (const std::string& Problem : Out.Problems) { LogError("{}", Problem); }
 	for (const std::string& Name : Options.Methods)
 	{
-		if (Out.Find(Name)) { continue; }
+		const FMethod* const Found = Out.Find(Name);
+		const bool bMeasured = Found && std::ranges::any_of(GetStabilityCases(), [&](const FStabilityCase& Case) {
+			return IsCaseWanted(Case, Options) && Measures(Case, *Found);
+		});
+		if (bMeasured) { continue; }
+		if (Found)
+		{
+			LogError("--method {}: no case that is run measures it", EscapeText(Name, MaxQuotedBytes));
+			return ExitUsage;
+		}
 		std::string Names;
 		for (const FMethod& Method : Out.Methods) { Names += (Names.empty() ? "" : ", ") + Method.Name; }
 		LogError("--method {}: there is none of that name; there are {}", EscapeText(Name, MaxQuotedBytes), Names);

@@ -175,8 +175,9 @@ void AddShadowRaysPass(
 	}
 	if (FRayQueueCounter::IsWanted())
 	{
-		const FRayQueueCounter::FQueue Asked{
-		    Queue.Name + "Rays", Queue.Counters, Queue.Capacity, Rays.MoreSamples > 0 ? Rays.MoreSamples : Rays.Sun.SamplesPerPixel};
+		const bool bMore = Rays.MoreSamples > 0;
+		const FRayQueueCounter::FQueue Asked{Queue.Name + "Rays", Queue.Counters, Queue.Capacity,
+		    bMore ? Rays.MoreSamples : Rays.Sun.SamplesPerPixel, bMore ? Rays.MoreSamples : 1};
 		Count = Context.RayCounter->AddRead(Context.Graph, (Queue.Name + "Count").c_str(), Asked);
 	}
 	Context.Graph.AddPass((Queue.Name + "Rays").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {

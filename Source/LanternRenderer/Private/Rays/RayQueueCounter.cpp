@@ -29,7 +29,7 @@ uint64_t FRayQueueCounter::GetRays(const FRing::FEntry& Entry)
 	for (uint32_t I = 0; I < RAY_SEGMENTS; ++I)
 	{
 		const uint64_t Requests = Segments[I].Wanted <= Entry.Notes.Capacity - End ? Segments[I].Wanted : Segments[I].Kept;
-		Rays += Requests * (I == RAY_SEGMENT_SUN ? Entry.Notes.RaysPerSunRequest : 1);
+		Rays += Requests * (I == RAY_SEGMENT_SUN ? Entry.Notes.RaysPerSunRequest : Entry.Notes.RaysPerLocalRequest);
 		End += Requests;
 	}
 	return Rays;

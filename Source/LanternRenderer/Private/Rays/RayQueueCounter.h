@@ -28,7 +28,7 @@ public:
 		std::string Pass;      ///< that traces it
 		FGraphBuffer Counters; ///< FRayQueueCounters
 		uint32_t Capacity = 0; ///< requests
-		uint32_t RaysPerSunRequest = 1;
+		uint32_t RaysPerSunRequest = 1, RaysPerLocalRequest = 1;
 	};
 	/// Adds the pass PassName that copies the counters. It runs if a pass declares FPassBuilder::Keep of the buffer that this returns.
 	/// Invalid: there is no memory for it, and nothing is counted.
