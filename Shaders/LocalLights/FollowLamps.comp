@@ -130,7 +130,8 @@ vec2 ClusterBringsTo(FViewConstants View, FLocalPoint Point, FLocalBrdf Local, f
 		float DistanceSquared = max(dot(To, To), 1.0e-8);
 		vec3 Direction = To * inversesqrt(DistanceSquared);
 		float Facing = max(-dot(Cluster.Normal, Direction), 0.0) + 0.25 * (1.0 - length(Cluster.Normal));
-		float Irradiance = Cluster.Power / EmissionScale * min(Share * Facing / DistanceSquared, Pi / max(Cluster.Area, 1.0e-12));
+		if (Facing <= 0.0) { continue; }
+		float Irradiance = ClusterIrradiance(Cluster, DistanceSquared / (Share * Facing)) / EmissionScale;
 		FLightSample Sample = FLightSample(Direction, sqrt(DistanceSquared), vec3(Irradiance), 1.0);
 		if (!ReachesLight(View, Point, Sample)) { continue; }
 		FLobes Lobes = ReflectLight(Point, Local, Sample, LIGHT_TRIANGLE);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "LanternImage/ImageStatistics.h"
 #include "LocalLightsFixture.h"
 
 namespace Lantern
@@ -40,9 +39,9 @@ protected:
 		SetSun(0.0, 0.0f);
 		SetSky(glm::vec3(0));
 	}
-	/// Pictures of a lobe, of which the first knows nothing of those before. X: of the camera, by frame.
+	/// Pictures of highlights, of which the first knows nothing of those before. X: of the camera, by frame.
 	template <class FPlace>
-	std::vector<FImage> Play(ESignal Signal, uint32_t Count, const FPlace& X, uint32_t FirstFrame = 0)
+	std::vector<FImage> Play(uint32_t Count, const FPlace& X, uint32_t FirstFrame = 0)
 	{
 		std::vector<FImage> Frames;
 		GetEngine().SetFrameIndex(FirstFrame);
@@ -51,17 +50,18 @@ protected:
 			FView View = LookAt({X(Frame), 3.0, 4.5}, {X(Frame), 0.2, 0}, 0.9f, Width, Height);
 			View.bCut = Frame == 0;
 			FFrameCapture Capture;
-			Capture.Signals.Add(Signal);
+			Capture.Signals.Add(ESignal::LocalSpecular);
 			FCapturedFrame Captured;
 			EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Captured));
-			Frames.push_back(Captured.Get(Signal));
+			Frames.push_back(Captured.Get(ESignal::LocalSpecular));
 		}
 		return Frames;
 	}
 	/// Mean over pixels of the standard deviation over the last 16 frames, over the mean of all.
-	double MeasureNoise(ESignal Signal)
+	double MeasureNoise(const char* Known)
 	{
-		const std::vector<FImage> Frames = Play(Signal, 56, [](uint32_t) { return 0.0; });
+		SetVariable("r.RT.Lights.KnownChanges", Known);
+		const std::vector<FImage> Frames = Play(56, [](uint32_t) { return 0.0; });
 		double Sigma = 0.0, Mean = 0.0;
 		for (size_t I = 0; I < Frames[0].Pixels.size(); ++I)
 		{
@@ -75,11 +75,6 @@ protected:
 			Mean += Sum;
 		}
 		return Sigma / Mean;
-	}
-	double MeasureNoise(ESignal Signal, const char* Known)
-	{
-		SetVariable("r.RT.Lights.KnownChanges", Known);
-		return MeasureNoise(Signal);
 	}
 	/// The mean of all from the given one on.
 	static FImage Average(const std::vector<FImage>& Images, size_t First)
@@ -110,7 +105,7 @@ TEST_F(FKnownLampChangesTest, HighlightsAtRestHaveLessNoise)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadRailing());
 	(void)AddLamps(24);
-	const double Known = MeasureNoise(ESignal::LocalSpecular, "1"), Guessed = MeasureNoise(ESignal::LocalSpecular, "0");
+	const double Known = MeasureNoise("1"), Guessed = MeasureNoise("0");
 	PrintFigure(fmt::format("noise of highlights {:.4f}, of the mean; {:.4f} if the picture is searched for changes", Known, Guessed));
 	EXPECT_LT(Known, 0.75 * Guessed);
 }
@@ -122,11 +117,11 @@ TEST_F(FKnownLampChangesTest, HighlightsFollowTheCamera)
 	(void)AddLamps(24);
 	const auto Strafe = [](uint32_t Frame) { return 0.04 * std::max(int(Frame) - 24, 0); };
 	const auto Stay = [&](uint32_t) { return Strafe(48); };
-	const FImage Truth = Average(Play(ESignal::LocalSpecular, 240, Stay, 100), 60);
+	const FImage Truth = Average(Play(240, Stay, 100), 60);
 	const auto Measure = [&](const char* Eye) {
 		SetVariable("r.RT.Debug.Lights.Eye", Eye);
 		std::vector<FImage> Ends;
-		for (uint32_t Run = 0; Run < 8; ++Run) { Ends.push_back(Play(ESignal::LocalSpecular, 49, Strafe, 1000 * (Run + 1)).back()); }
+		for (uint32_t Run = 0; Run < 8; ++Run) { Ends.push_back(Play(49, Strafe, 1000 * (Run + 1)).back()); }
 		return Difference(Average(Ends, 0), Truth);
 	};
 	const double Told = Measure("1"), Untold = Measure("0");

@@ -147,7 +147,7 @@ struct FTrailRegion
 
 /// What a mover, its shadow or its light left in pixels that it uncovered 4 to 8 frames ago, and 16 to 20; each as a part
 /// of what was there, against what the method makes of the same moment at rest. Four moments of its way are summed up, in
-/// the mean of eight runs. The scene is loaded.
+/// the mean of 32 runs. The scene is loaded.
 FRTStatus MeasureTrail(FStabilityStage& Stage, const FTrailRegion& Region, std::vector<FStabilityFigure>& Out)
 {
 	constexpr int First = 28, Count = 61, Steps = 9, Step = 4; // references at frames First, First + 4, …
